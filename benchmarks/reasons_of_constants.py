@@ -17,6 +17,10 @@ _LEAK = "none found; counted by `make leak-coverage`"
 _PART = "none found; counted by `make part-coverage`"
 _SEARCH = "needs none: how the search goes, not where it ends"
 _TOLD = "needs none: from where words are said; it moves no number"
+_FINER_WAYS = (
+    "a path of far more loads lies within, "
+    "[on rough bodies](how-to/friction.md#answers-for-two-materials)"
+)
 _TIME = "needs none: a limit of the time"
 _FINE = "`make constants`: doubled, it moves no width by more than"
 _DENSE = "none found: how finely values are tried; counted by `make coverage-table`"
@@ -105,6 +109,7 @@ CHOSEN = {
         _LEAST_SPRINGS=f"{_FINE} 1 %, and no value by more",
         _CUTS=_COUNTED,
     ),
+    **_of("margins/steps", _TIMES=_FINER_WAYS, _TOLD_FROM=_TOLD),
     **_of("assessment/facts", _WIDE_RATIO=_TOLD),
     **_of("assessment/part_facts", _ADVISED_MAPS=_TOLD),
     **_of("margins/place", _RTOL=f"{_FINE} 0.1 %"),
@@ -261,6 +266,11 @@ GUARDS = {
         _CUTS="scans near what chance allows",
         _CHANCE="scans near what chance allows",
         _NO_MATTER="long scans, where chance allows less than matters",
+    ),
+    **_of(
+        "margins/steps",
+        _TIMES="coupled bodies that are sheared",
+        _TOLD_FROM="coupled bodies whose slip hangs on how the way is cut",
     ),
     **_of(
         "question/case",

@@ -81,6 +81,13 @@ def in_turns(counts: dict[Any, int]) -> list[tuple[Any, int]]:
     return [body for *_, body in sorted(shares, key=lambda each: each[:2])]
 
 
+def kept_lines(file: Path, bodies: Sequence[Any], body_of: Callable[[str], Any]) -> str:
+    """Return the lines of a file that are of some bodies, in their order; a run may go on."""
+    lines = file.read_text(encoding="utf-8").splitlines(keepends=True)
+    found = {body_of(line): line for line in lines if line.endswith("\n")}
+    return "".join(found[body] for body in bodies if body in found)
+
+
 def _whole_lines(file: Path) -> list[str]:
     """Lines that a file has, after one that was cut off is taken away."""
     file.touch()

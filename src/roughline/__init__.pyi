@@ -27,7 +27,7 @@ from roughline.contact.scaling import PAPER_PUNCH as PAPER_PUNCH
 from roughline.contact.shear_loads import cycle as cycle
 from roughline.contact.sliding import SlidingCurve as SlidingCurve
 from roughline.contact.sliding import SlidingFields as SlidingFields
-from roughline.contact.sliding_profile import SlidingLineCurve as SlidingLineCurve
+from roughline.contact.sliding_springs import SlidingLineCurve as SlidingLineCurve
 from roughline.contact.solver import Solver as Solver
 from roughline.contact.status import Status as Status
 from roughline.creep.creep import Creep as Creep

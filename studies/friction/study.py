@@ -17,6 +17,7 @@ from studies.friction.figures import SHOWN, friction_figure
 from studies.friction.measure import FEWEST, LINES, Data, over_lines
 from studies.friction.run import COUNT, FEWER, HURSTS, MIDDLE, PAIRS, body_of, one_material, planned
 from studies.judged import Found, spread
+from studies.lines import kept_lines
 from studies.study import Study, claims_table
 
 DATA = Path(__file__).parent / "data.jsonl"
@@ -37,10 +38,7 @@ def data() -> Data:
 
 def reduce(file: Path) -> None:
     """Keep what a run has of the plan, in its order; it need not have ended."""
-    lines = file.read_text(encoding="utf-8").splitlines(keepends=True)
-    found = {body_of(line): line for line in lines if line.endswith("\n")}
-    kept = "".join(found[body] for body in planned() if body in found)
-    DATA.write_text(kept, encoding="utf-8")
+    DATA.write_text(kept_lines(file, planned(), body_of), encoding="utf-8")
     data.cache_clear()
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from roughline.errors import StoreError
 from roughline.report.page import Table
 from studies.judged import Found, cell, change, spread
+from studies.lines import kept_lines
 from studies.sealing.body import (
     BAND,
     COMPARED,
@@ -79,10 +80,7 @@ def data() -> Data:
 
 def reduce(file: Path) -> None:
     """Keep what a run has of the plan, in its order; it need not have ended."""
-    lines = file.read_text(encoding="utf-8").splitlines(keepends=True)
-    found = {body_of(line): line for line in lines if line.endswith("\n")}
-    kept = "".join(found[body] for body in planned() if body in found)
-    DATA.write_text(kept, encoding="utf-8")
+    DATA.write_text(kept_lines(file, planned(), body_of), encoding="utf-8")
     data.cache_clear()
 
 

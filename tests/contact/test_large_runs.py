@@ -176,6 +176,19 @@ def test_an_estimate_counts_the_loads_whose_fields_are_kept():
     assert one - none == pytest.approx((every - none) / 20)
 
 
+def test_an_estimate_counts_what_friction_takes_and_adds_to_fields():
+    shape, points = (1024, 1024), 1024**2
+    plain, rubbing, coupled = (
+        rl.estimate(shape, 4, friction=each).memory for each in (False, True, "coupled")
+    )
+    assert 48 * points < rubbing - plain < 60 * points
+    assert 68 * points < coupled - plain < 80 * points
+    plain, rubbing = (
+        rl.estimate(shape, 4, fields=[1, 3], friction=each).memory for each in (False, True)
+    )
+    assert 130 * points < rubbing - plain < 155 * points
+
+
 @pytest.mark.parametrize(
     ("name", "wrong"),
     [
@@ -185,6 +198,7 @@ def test_an_estimate_counts_the_loads_whose_fields_are_kept():
         *(("area_fraction", each) for each in (7, -0.1, math.nan, "0.2", True, np.ones(2))),
         *(("periodic", each) for each in ("no", 1, None)),
         *(("yielding", each) for each in ("no", 1, None)),
+        *(("friction", each) for each in ("much", 0.3, None)),
     ],
 )
 def test_what_is_estimated_is_checked(name, wrong):

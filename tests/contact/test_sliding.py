@@ -68,9 +68,9 @@ def test_a_friction_has_a_coefficient_or_a_strength():
     assert rl.Friction(field) == rl.Friction(field.copy()) != rl.Friction(0.3)
 
 
-def test_springs_of_a_line_have_no_friction():
+def test_springs_of_a_line_need_a_poissons_ratio_as_surfaces_do():
     line = rl.SelfAffine(hurst=0.8, rms_height=0.01).line(64, rng=7)
-    with pytest.raises(rl.InputError, match="springs of a Line bear no shear: press a Profile"):
+    with pytest.raises(rl.InputError, match="Poisson's ratio"):
         rl.press(line, E_star=1.0, forces=[1e-4], friction=FRICTION)
 
 

@@ -40,10 +40,23 @@ def test_what_springs_do_not_know_is_refused_in_one_line(given, said):
     assert "\n" not in str(caught.value)
 
 
-def test_a_line_bears_no_shear_and_a_profile_is_offered():
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"shear_forces": [0.01, (0.01, 0.01)]}, "pairs of finite numbers"),
+        ({"shear_forces": [(0.01, 0.0), (0.01, 0.01)]}, "along one line"),
+        ({"friction": rl.Friction(strength=1.0)}, "one coefficient"),
+        ({"half_space": rl.Homogeneous(3.0)}, "Poisson's ratio"),
+        ({"half_space": rl.Homogeneous.of(3.0, 0.25)}, r"give beta=0\.0"),
+        ({"shear_forces": [0.0, 0.07]}, "so that the bodies slide"),
+        ({"forces": None, "n_loads": 4}, "give depths or forces"),
+    ],
+)
+def test_a_line_is_refused_what_its_springs_do_not_know(given, said):
     line = rl.SelfAffine(hurst=0.8, rms_height=0.01).line(256, rng=7)
-    with pytest.raises(rl.InputError, match="a Line bear no shear: press a Profile"):
-        rl.press(line, **SHEARED, forces=[0.1])
+    with pytest.raises(rl.InputError, match=said) as caught:
+        rl.press(line, **(SHEARED | {"forces": [0.1, 0.2]} | given))
+    assert "\n" not in str(caught.value)
 
 
 def test_shear_at_given_depths_is_refused_with_the_force_there():

@@ -189,3 +189,23 @@ def test_two_of_one_name_and_one_without_a_name_are_refused(name, told):
         rl.causes.add(Other())
     with pytest.raises(rl.InputError, match="give an object of a class that is a Cause"):
         rl.causes.add(Other)
+
+
+def test_it_is_asked_what_it_leaves_open_of_a_shear_force(noise):
+    """The first of its bodies is sheared along the same path."""
+    spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=2e-7, q_roll=2.5e4)
+    body = replace(spectrum.surface(16, rng=7), unit="m", is_cut_out=False)
+    alike = ("E=3 GPa nu=0.38",) * 2
+    asked = rl.Question(body, alike, loads="1 N", ask=[rl.Friction(0.3), rl.Shear("0.2 N")])
+    assert "sheared, noise" in {each.name for each in list_presses(Case.of(asked))}
+    noise.rms = 1e-9
+    answer = rl.assess(asked).answers["shear_displacement"]
+    other = rl.Question(
+        noise.body(Case.of(asked), 0), alike, loads="1 N", ask=[rl.Friction(0.3), rl.Shear("0.2 N")]
+    )
+    rl.causes.remove("noise")
+    moved = rl.assess(other).answers["shear_displacement"]
+    rl.causes.add(noise)
+    (margin,) = (each for each in answer.margins if each.cause == "noise")
+    ratio = max(moved.values[0] / answer.values[0], answer.values[0] / moved.values[0])
+    assert margin.high[0] / answer.values[0] == pytest.approx(ratio, rel=1e-9)

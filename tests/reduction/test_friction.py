@@ -1,5 +1,6 @@
 """Springs with friction: any history of a body of revolution, against exact solutions and laws."""
 
+import itertools
 import math
 
 import numpy as np
@@ -248,3 +249,84 @@ def test_a_history_along_another_line_is_turned_with_it(angle):
     assert curve.slide == pytest.approx(along_x.slide @ turn, rel=1e-12, abs=1e-15)
     assert curve.shear_stiffness == pytest.approx(turn.T @ along_x.shear_stiffness @ turn, rel=1e-9)
     assert curve.dissipated == pytest.approx(along_x.dissipated, rel=1e-9, abs=1e-12)
+
+
+LINE = rl.SelfAffine(hurst=0.7, rms_height=0.02).line(2**8, rng=7)
+SPRING = LINE.spacing  # springs have E* and G* times that
+
+
+def forces_of_the_line(depths):
+    """Its own F(d), under normal loads alone."""
+    return rl.press(LINE, E_star=E_STAR, depths=np.atleast_1d(depths)).force
+
+
+@pytest.mark.parametrize("depth", [0.01, 0.05, 0.2])  # the last one beyond all springs
+def test_a_line_obeys_jaegers_principle_with_its_own_force(depth):
+    """Q = mu (F(d) - F(d - G* u / (mu E*))), and twice that from a turn on."""
+    (force,) = forces_of_the_line(depth)
+    shear = MU * force * np.array([0.0, 0.2, 0.6, 0.9, 0.3, -0.5, -0.9, 0.9])
+    curve = press(LINE, depths=[depth] * shear.size, shear_forces=shear)
+    stuck = G_STAR / (MU * E_STAR)
+    slide, turn = curve.slide[:, 0], 3
+    rising = forces_of_the_line(depth - stuck * slide[1:4])
+    assert MU * (force - rising) == pytest.approx(shear[1:4], rel=1e-12)
+    way, back = slide[turn] - slide[4:7], shear[turn] - shear[4:7]
+    falling = forces_of_the_line(depth - stuck * way / 2)
+    assert 2 * MU * (force - falling) == pytest.approx(back, rel=1e-12)
+    assert slide[7] == pytest.approx(slide[turn], rel=1e-12)
+    # what a cycle dissipates lies between F(d) and its chord, from the force of what sticks
+    inner = depth - stuck * slide[turn]
+    separations = LINE.heights.max() - LINE.heights
+    between = separations[(separations > inner) & (separations < depth)]
+    d = np.concatenate([[inner], np.sort(between), [depth]])
+    F = forces_of_the_line(d)  # straight between springs that touch
+    chord = np.interp(d, d[[0, -1]], F[[0, -1]])
+    loop = 8 * MU**2 * (E_STAR / G_STAR) * np.trapezoid(chord - F, d)
+    assert curve.dissipated[turn + 1 :].sum() == pytest.approx(loop, rel=1e-9)
+    sticks = np.count_nonzero(separations < inner) / np.count_nonzero(separations < depth)
+    assert curve.stick_fraction[turn] == pytest.approx(sticks, rel=1e-12)
+    on = G_STAR * SPRING * np.count_nonzero(separations < inner)
+    assert curve.shear_stiffness[turn, 0, 0] == pytest.approx(on, rel=1e-12)
+    assert curve.shear_stiffness_back[turn, 0, 0] == pytest.approx(
+        G_STAR / E_STAR * curve.stiffness[turn], rel=1e-12
+    )
+
+
+def followed(depths, slides, parts=1):
+    """Shear forces, and what is dissipated, of the springs of the line one by one."""
+    z, shear = LINE.heights.max() - LINE.heights, np.zeros(LINE.heights.size)
+    forces, lost, depth, slide = [], [], 0.0, 0.0
+    for to_depth, to_slide in zip(depths, slides, strict=True):
+        lost.append(0.0)
+        corners, slide_step = np.linspace(depth, to_depth, parts + 1), (to_slide - slide) / parts
+        for before, now in itertools.pairwise(corners):
+            share = np.ones(z.size)
+            if now > before:
+                share = np.clip((now - z) / (now - before), 0.0, 1.0)
+            had, bears = (
+                MU * E_STAR * SPRING * np.maximum(each - z, 0.0) for each in (before, now)
+            )
+            tried = shear + G_STAR * SPRING * share * slide_step
+            after = np.clip(tried, -bears, bears)
+            lost[-1] += float(((had + bears) / 2 * np.abs(tried - after)).sum() / G_STAR / SPRING)
+            shear = after
+        forces.append(float(shear.sum()))
+        depth, slide = to_depth, to_slide
+    return np.array(forces), np.array(lost)
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_random_histories_of_a_line_are_those_of_its_springs_one_by_one(seed):
+    random = np.random.default_rng(seed)
+    depths = random.uniform(0.0, 0.1, 16)
+    slides = random.uniform(-1, 1, 16) * 1.5 * MU * E_STAR / G_STAR * 0.1
+    curve = press(LINE, depths=depths, slides=slides)
+    forces, _ = followed(depths, slides)
+    most = MU * curve.force.max()
+    assert curve.shear_force[:, 0] == pytest.approx(forces, abs=1e-12 * most)
+    _, lost = followed(depths, slides, parts=400)
+    assert curve.dissipated == pytest.approx(lost, rel=1e-3, abs=1e-4 * lost.max())
+    shares = random.uniform(-0.95, 0.95, 16)
+    held = press(LINE, forces=curve.force, shear_forces=shares * curve.shear_limit)
+    again = press(LINE, depths=held.depth, slides=held.slide)
+    assert again.shear_force == pytest.approx(held.shear_force, abs=1e-10 * most)

@@ -9,7 +9,6 @@ import numpy as np
 from attrs import evolve
 
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.shear import margins_of_shear
 from roughline.assessment.solution import LeftOpen, Solution, combine_curves
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve, SurfaceCurve
@@ -21,6 +20,7 @@ from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import InterfaceStiffness, Pressed
 from roughline.engineering.rule import Answer
 from roughline.engineering.rules import rules
+from roughline.engineering.rules.friction import SHEAR_ANSWERS
 from roughline.engineering.slip import ShearCycles
 from roughline.facts.fact import Fact
 from roughline.margins.causes import HARDNESS, causes
@@ -89,30 +89,38 @@ def margins_by_cause(
     An answer that is sought brings an interval of its own, of its half grid and its quarters.
     """
     found: dict[str, list[Margin]] = {key: [] for key in answers}
-    for key, margins in margins_of_shear(case, sheared, answers).items():
-        found[key] += margins
     if left_open is None:  # of a line scan, whose lines are all that leaves it open
         for key, answer in answers.items():
             if answer.ends is not None and _is_open(answer):
                 found[key].append(Margin(*ONE_SCAN, *answer.ends))
     else:
-        own, _ = work_out_answers(case, combine_curves(case, curves, left_open.by("")))
+
+        def answered(left_open: LeftOpen, cause: str) -> Mapping[str, Answer]:
+            solution = combine_curves(case, curves, left_open)
+            path = None if sheared is None else sheared.by(cause)
+            sought = replace(solution.sought, sheared=path)
+            return work_out_answers(case, replace(solution, sought=sought))[0]
+
+        own = answered(left_open.by(""), "")
         open_alone = {key for key in answers if _is_open(own.get(key))}
         for each in causes:
             if each.is_bound:
                 continue
             by_cause, text = left_open.by(each.name), (each.name, each.title, each.remedy)
-            alone, _ = work_out_answers(case, combine_curves(case, curves, by_cause))
-            moved = alone
+            moved = alone = answered(by_cause, each.name)
             if not by_cause.is_known:  # what it moves is seen as something else moves as much
-                probe = by_cause.probed(case, curves)
-                moved, _ = work_out_answers(case, combine_curves(case, curves, probe))
+                moved = answered(by_cause.probed(case, curves), each.name)
             for key, answer in answers.items():
-                if key in open_alone or answer.rule.is_given or not _is_open(moved.get(key)):
+                is_of_shear = answer.rule in SHEAR_ANSWERS
+                is_moved = _is_open(moved.get(key))
+                if is_of_shear and sheared is not None and each.name in sheared.others:
+                    is_moved = is_moved or sheared.others[each.name] is None
+                if key in open_alone or answer.rule.is_given or not is_moved:
                     continue
                 ends = alone[key].ends if _is_open(alone[key]) else None
                 ends = ends or (np.full_like(answer.values, np.nan),) * 2
-                margin = Margin(*text, *ends, is_of_larger=each.is_of_larger)
+                of_larger = each.is_of_larger and not is_of_shear
+                margin = Margin(*text, *ends, is_of_larger=of_larger)
                 found[key].append(margin)
     for key, (least, most) in scatter.items():
         if answers[key].rule.is_given:

@@ -12,7 +12,6 @@ from roughline.assessment.bounds import elastic_answers, widen_by_scatter
 from roughline.assessment.cost import Announce, announce_cost
 from roughline.assessment.facts import collect_facts
 from roughline.assessment.presses import list_presses
-from roughline.assessment.shear import sheared
 from roughline.assessment.slip import slip_at_largest_load
 from roughline.assessment.solution import (
     LeftOpen,
@@ -30,6 +29,7 @@ from roughline.errors.public import public
 from roughline.facts.fact import Fact
 from roughline.margins.causes import causes
 from roughline.margins.filling import force_on_filled
+from roughline.margins.sheared import shear_cycles
 from roughline.margins.variant import AS_ASKED, Curves, Stopped, press_all
 from roughline.question.case import Case
 from roughline.question.kinds import nominal_area
@@ -111,7 +111,10 @@ def _solved(
     curves = _pressed(case, announce, progress)
     left_open = LeftOpen.of(case, curves)
     solution = combine_curves(case, curves, left_open)
-    slip, path = slip_at_largest_load(case, curves), sheared(case, curves)
+    slip, path = (
+        slip_at_largest_load(case, curves),
+        shear_cycles(case, curves, causes.sheared_otherwise(case)),
+    )
     sought = replace(solution.sought, slip=slip, sheared=path)
     _refuse_all_at_the_hardness(case, solution.curve)
     return curves, left_open, replace(solution, sought=sought)

@@ -32,7 +32,6 @@ _ANNOUNCED_LOADS = 1000  # loads from which on the cost is announced
 # Memory of whole commands on 1024² and 2048² points, as measured. [bytes], and per point
 _BYTES_TO_READ = 30_000_000  # beside that of a press
 _BYTES_OF_OTHER_CURVES = 30  # with materials
-_BYTES_OF_SHEAR = 210  # as counted: how shear displaces, and fields of two loads with slip
 _BYTES_TO_DRAW, _BYTES_OF_FIGURES = 410_000_000, 145  # once the press is over, of the process
 _LOADS_TO_SEAL = 45  # that both are sought with, quarters and coarser grids included
 _SECONDS_OF_FLOW, _POWER_OF_FLOW = 1e-7, 1.25  # of points, as measured from 256² to 1024²
@@ -58,10 +57,11 @@ def announce_cost(case: Case, variants: Sequence[Variant], announce: Announce | 
     if announce is None or not (large or case.loads.count >= _ANNOUNCED_LOADS):
         return
     keeps_fields = ("as asked",) if case.question.sealing is None else ("as asked", "interface")
-    fields = [0] if case.question.fields else False
+    fields, sheared = [0] if case.question.fields else False, case.question.sheared_half_space
+    coupled = sheared is not None and sheared.is_coupled
 
     def estimated(each: Variant) -> Estimate:
-        return estimate(
+        told = estimate(
             each.shape,
             n_loads=case.loads.count,
             periodic=each.periodic,
@@ -69,11 +69,20 @@ def announce_cost(case: Case, variants: Sequence[Variant], announce: Announce | 
             yielding=yielding,
             area_fraction=share,
         )
+        if not each.rubs:
+            return told
+        rubbing = estimate(  # with the fields of both ends of its last cycle
+            each.shape,
+            n_loads=2,
+            periodic=each.periodic,
+            fields=True,
+            area_fraction=share,
+            friction="coupled" if coupled else True,
+        )
+        return Estimate(rubbing.memory, told.seconds)
 
     costs = [(each, estimated(each)) for each in variants]
-    sheared = {"shear": _BYTES_OF_SHEAR * body.heights.size}
-    pressing = max(cost.memory + sheared.get(each.purpose, 0) for each, cost in costs)
-    memory = _most_memory(case, body, pressing)
+    memory = _most_memory(case, body, max(cost.memory for _, cost in costs))
 
     def seconds(purpose: str) -> float:
         return sum(each.share * cost.seconds for each, cost in costs if each.purpose == purpose)
@@ -103,7 +112,9 @@ def _seconds_of_flow(case: Case, variants: Sequence[Variant]) -> float:
     taken = [
         each.share * math.prod(each.shape) ** _POWER_OF_FLOW
         for each in variants
-        if each.periodic == is_repeated and each.purpose not in ("punch", "slip", "shear")
+        if each.periodic == is_repeated
+        and each.purpose not in ("punch", "slip")
+        and not each.rubs
     ]
     apertures = len(sealing.directions) * (1 if sealing.rarefied.is_even(0.0) else 2)
     return _SECONDS_OF_FLOW * case.loads.count * apertures * math.fsum(taken)

@@ -154,9 +154,7 @@ def _on_shear(result: Assessment) -> Iterator[Fact]:
     of_shear = [each for each in result.answers.values() if each.rule in SHEAR_ANSWERS]
     unknown = (each for answer in of_shear for each in answer.margins if not each.factor[-1] >= 1)
     if titles := tuple(dict.fromkeys(each.title for each in unknown)):
-        has_ends = sheared.coarser is not None
-        fact = Fact("shear_left_open", causes=titles, has_ends=has_ends)
-        yield fact.concerning(*(each.key for each in of_shear))
+        yield Fact("shear_left_open", causes=titles).concerning(*(each.key for each in of_shear))
 
 
 def _on_wide_intervals(result: Assessment) -> Iterator[Fact]:

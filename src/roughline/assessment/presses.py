@@ -11,10 +11,10 @@ from functools import partial
 
 import numpy as np
 
-from roughline.assessment.shear import shear_presses
 from roughline.margins.causes import causes
 from roughline.margins.filling import force_on
 from roughline.margins.larger_surface import flat_punch, punch_name
+from roughline.margins.sheared import shear_presses
 from roughline.margins.variant import AS_ASKED, Curves, Variant, measures_of_map, repeated
 from roughline.question.case import Case
 from roughline.question.films import SPOT_RADIUS, find_film
@@ -37,7 +37,7 @@ def list_presses(case: Case) -> list[Variant]:
     if case.question.friction is not None and case.hardness is not None:
         share, needed = CURVE_LOADS / case.loads.count, partial(_unloaded, case)
         listed.append(replace(listed[0], name=UNLOADED, purpose="slip", needed=needed, share=share))
-    return listed + shear_presses(case, listed[0])
+    return listed + shear_presses(case, listed[0], causes.sheared_otherwise(case))
 
 
 def _as_asked(case: Case) -> Variant:

@@ -102,6 +102,8 @@ def evaluate_case(ensemble: Ensemble, fractal_dimension: float, realisation: int
         half_space=ensemble.pressed_into,
         law=None if ensemble.model == "reduced" else law,
         forces=forces,
+        friction=ensemble.friction,
+        shear_forces=ensemble.shear_bars,
         throw=False,
     )
     of_body = {
@@ -111,6 +113,8 @@ def evaluate_case(ensemble: Ensemble, fractal_dimension: float, realisation: int
     }
     loads = len(ensemble.force_bars)
     return {
-        name: np.asarray(of_body[name] if name in of_body else getattr(curve, name)[:loads])
-        for name in (variable.name for variable in stored_variables(ensemble))
+        each.name: np.asarray(
+            of_body[each.name] if each.per_body else each.along_x(getattr(curve, each.name)[:loads])
+        )
+        for each in stored_variables(ensemble)
     }

@@ -87,10 +87,22 @@ def _worker_memory(ensemble: Ensemble) -> int:
         yielding=law.memory == "dents",
         area_fraction=1.0 if max(ensemble.force_bars) > _SATURATING_FORCE else None,
         besides=estimates.bytes_of_layers(half_space, shape, (spacing, spacing))
-        + estimates.bytes_of_pull(law, 1.0),
+        + estimates.bytes_of_pull(law, 1.0)
+        + (0.0 if ensemble.friction is None else _bytes_of_friction(ensemble)),
     )
     heights = 8 * ensemble.n**2
     return _WORKER_BYTES + heights + max(pressing, _GENERATION_BYTES * ensemble.n**2)
+
+
+def _bytes_of_friction(ensemble: Ensemble) -> float:
+    return estimates.bytes_of_shear(0, coupled=ensemble.pressed_into.is_coupled)
+
+
+def _times_longer(ensemble: Ensemble) -> int:
+    """As long as so many loads without friction one of an ensemble takes."""
+    if ensemble.friction is None:
+        return 1
+    return estimates.TIMES_WITH_FRICTION[ensemble.pressed_into.is_coupled]
 
 
 def _result_bytes(plan: Plan, missing: dict[str, int]) -> int:
@@ -119,7 +131,8 @@ def _nominal(ensemble: Ensemble) -> float:
     """Time of a case on a nominal core. [s]"""
     if ensemble.model == "reduced":
         return 2e-4 + 2e-8 * ensemble.n
-    return len(ensemble.force_bars) * (1e-3 + 5e-7 * ensemble.n**2)
+    times = _times_longer(ensemble) * len(ensemble.force_bars)
+    return times * (1e-3 + 5e-7 * ensemble.n**2)
 
 
 def _timed(ensemble: Ensemble) -> float:
@@ -130,7 +143,8 @@ def _timed(ensemble: Ensemble) -> float:
         if ensemble.model == "full":
             shape = (ensemble.n, ensemble.n)
             periodic = ensemble.pressed_into.periodic
-            return estimates.estimate(shape, len(ensemble.force_bars), periodic=periodic).seconds
+            told = estimates.estimate(shape, len(ensemble.force_bars), periodic=periodic)
+            return _times_longer(ensemble) * told.seconds
         small = replace(ensemble, n=min(ensemble.n, 2**18), roll_off_ratio=1.0, cutoff_ratio=None)
         evaluate_case(small, small.fractal_dimensions[0], 0)  # compiles
         start = time.perf_counter()

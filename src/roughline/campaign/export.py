@@ -68,6 +68,8 @@ def mean_table(data: xarray.Dataset) -> pd.DataFrame:
         one = data.sel(fractal_dimension=dimension)
         force = one.force_bar.values
         columns = {"fractal_dimension": np.full(force.size, dimension), "force_bar": force}
+        if "shear_bar" in one.coords:
+            columns["shear_bar"] = one.shear_bar.values
         for name in names:
             mean = average(one[name].values)
             columns |= {

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from roughline.campaign.plan import Ensemble
 from roughline.contact.quantities import QUANTITIES, RESOLVED_FROM
@@ -31,12 +32,17 @@ class Variable:
     dims: tuple[str, ...] = _DIMENSIONS
     of_lines: bool = True  # whether the reduced model gives it
     memories: tuple[str, ...] = ()  # what loads must leave for bodies to have it; empty: anything
+    of_friction: bool = False  # whether bodies that rub alone have it
     averaged: bool = False  # whether tables of means over the realisations have it
 
     @property
     def per_body(self) -> bool:
         """Whether a body has one value, rather than one for each load."""
         return "force_bar" not in self.dims
+
+    def along_x(self, values: NDArray[Any]) -> NDArray[Any]:
+        """Return values over the loads, of vectors and tensors those along x."""
+        return values.reshape(len(values), -1)[:, 0]
 
     @property
     def attributes(self) -> dict[str, str]:
@@ -59,6 +65,10 @@ def _curve_variable(name: str, meaning: str = "", *, averaged: bool = False) -> 
     )
 
 
+def _sliding_variable(name: str, meaning: str) -> Variable:
+    return Variable(name, "f8", np.nan, meaning, of_friction=True, averaged=True)
+
+
 def _body_variable(name: str, meaning: str, *memories: str) -> Variable:
     return Variable(name, "f8", np.nan, meaning, _DIMENSIONS[:2], memories=memories)
 
@@ -78,6 +88,11 @@ _DECLARED = (
     _curve_variable("pulling_fraction", averaged=True),
     _curve_variable("work", "work done by the load / (E* h² L)", averaged=True),
     _curve_variable("dissipated_work", "work dissipated / (E* h² L)", averaged=True),
+    _sliding_variable("slide", "slide along x since touch / h"),
+    _sliding_variable("shear_stiffness", "dQ / d(slide) along x on further shear / (E* L)"),
+    _sliding_variable("shear_stiffness_back", "dQ / d(slide) along x on turning back / (E* L)"),
+    _sliding_variable("stick_fraction", "share of the contact that sticks"),
+    _sliding_variable("dissipated", "energy dissipated by slip since the load before / (E* h² L)"),
     _curve_variable(
         "status", "0 converged, 1 stalled, 2 max_iterations, 3 no tangent, -1 not done"
     ),
@@ -123,6 +138,7 @@ _COORDINATES = (
         _DIMENSIONS[1:2],
     ),
     Variable("force_bar", "f8", np.nan, QUANTITIES["force_bar"].long_name, _DIMENSIONS[2:]),
+    Variable("shear_bar", "f8", np.nan, "shear force along x, Q / (E* h L)", _DIMENSIONS[2:]),
 )
 
 COORDINATES = {coordinate.name: coordinate for coordinate in _COORDINATES}
@@ -132,13 +148,15 @@ COORDINATES = {coordinate.name: coordinate for coordinate in _COORDINATES}
 def stored_variables(ensemble: Ensemble) -> list[Variable]:
     """Return what is kept of an ensemble.
 
-    The reduced model gives no contact area, elastic bodies no indentation, and others no pull.
+    The reduced model gives no contact area, elastic bodies no indentation, others no pull, and
+    bodies without friction no slide.
     """
     return [
         each
         for each in _DECLARED
         if (ensemble.model == "full" or each.of_lines)
         and (not each.memories or ensemble.memory in each.memories)
+        and (not each.of_friction or ensemble.friction is not None)
     ]
 
 

@@ -11,10 +11,12 @@ import numpy as np
 
 from roughline.campaign.by_name import described
 from roughline.contact.arguments import yielding_law
+from roughline.contact.shear_loads import LARGEST_SHARE_HELD, refuse_unknown_shear
 from roughline.errors import InputError
 from roughline.errors.public import public_making
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
+from roughline.halfspace.friction.law import Friction
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.laws.pulling_zone import resolves_pull_off, zone
@@ -24,8 +26,8 @@ from roughline.spectra.self_affine import SelfAffine
 _ModelName = Literal["full", "reduced"]
 
 _FEWEST_POINTS, _MOST_POINTS = 3, {"full": 2**15, "reduced": 2**28}
-BODIES = ("hardness_bar", "law", "half_space")
-"""Settings of bodies that are not elastic, or not of one material; others have none of them."""
+BODIES = ("hardness_bar", "law", "half_space", "friction", "shear_bars")
+"""Settings of bodies that are not elastic, or not of one material, or rub; others have none."""
 
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
 
@@ -70,6 +72,11 @@ class Ensemble:
     half_space : HalfSpace or None
         What bodies are pressed into, in place of a homogeneous half-space. Its moduli are taken
         over its E*. Full model only.
+    friction : Friction or None
+        What points in contact bear of shear. Loads are then a path, which may stay and fall, and
+        the half-space needs a Poisson's ratio. Full model only.
+    shear_bars : tuple of float or None
+        With friction, the shear force Q / (E* h L) along x at each of the forces.
 
     Raises
     ------
@@ -90,6 +97,8 @@ class Ensemble:
     hardness_bar: float | None = None
     law: ContactLaw | None = None
     half_space: HalfSpace | None = None
+    friction: Friction | None = None
+    shear_bars: tuple[float, ...] | None = None
 
     def __post_init__(self) -> None:
         refuse = self._refuse
@@ -126,6 +135,7 @@ class Ensemble:
             self._refuse_hardness(self.hardness_bar)
         if self.law is not None:
             self._refuse_law(self.law)
+        self._refuse_shear()
 
     def _refuse_boundary(self) -> None:
         """Refuse another boundary than that of the half-space; where none is given, take that."""
@@ -156,10 +166,10 @@ class Ensemble:
                 after = f" after {before:g}" if before else ""
                 self._refuse(
                     f"force_bars must be positive, finite and rising, and {force:g} came{after}: "
-                    "sort them; a plan has no loading histories: for falling loads use "
-                    "rl.press(surface, forces=[...])"
+                    "sort them; a plan without friction has no loading histories: for falling "
+                    "loads use rl.press(surface, forces=[...])"
                 )
-            before = force
+            before = 0.0 if self.friction is not None else force  # whose loads are a path
 
     def _refuse_hardness(self, hardness_bar: float) -> None:
         """Refuse a hardness that a plan cannot have, and loads that no body of it bears."""
@@ -211,6 +221,50 @@ class Ensemble:
                 "longer range, or more points"
             )
 
+    def _refuse_shear(self) -> None:
+        """Refuse friction that a plan cannot have, and shear that is not borne."""
+        friction, shears, forces = self.friction, self.shear_bars, self.force_bars
+        if friction is None:
+            if shears is not None:
+                self._refuse(
+                    "shear_bars are given without friction, and without it nothing bears "
+                    "shear: give friction = 0.3 too"
+                )
+            return
+        if not isinstance(friction, Friction):
+            self._refuse(f"friction is {friction!r}; an rl.Friction is needed, such as 0.3")
+        if self.model == "reduced":
+            self._refuse('friction is given, and a plan has it of surfaces: take model = "full"')
+        if self.hardness_bar is not None or self.law is not None:
+            self._refuse(
+                "friction of bodies that yield or stick is not solved: leave hardness_bar "
+                "and law out"
+            )
+        if shears is None:
+            self._refuse(
+                "friction is given without shear_bars: give a shear force Q / (E* h L) "
+                "for each of force_bars"
+            )
+        if len(shears) != len(forces):
+            self._refuse(
+                f"shear_bars are {len(shears)} and force_bars are {len(forces)}; give as "
+                "many of both"
+            )
+        try:
+            friction.refuse_other_grids((self.n, self.n))
+            refuse_unknown_shear(self.pressed_into)
+        except InputError as error:
+            self._refuse(str(error))
+        for shear, force in zip(shears, forces, strict=True):
+            limit = math.inf
+            if isinstance(friction.coefficient, float):
+                limit = friction.coefficient * force * LARGEST_SHARE_HELD
+            if not abs(shear) < limit:
+                self._refuse(
+                    f"shear_bar {shear:g} at force_bar {force:g}: friction bears less than mu F = "
+                    f"{limit:.6g} there; give less"
+                )
+
     def contact_law(self, rms_slope: float) -> ContactLaw:
         """Return what pressures and gaps of a body obey that has such a rms slope."""
         if self.law is not None:
@@ -257,7 +311,7 @@ class Ensemble:
         for name in BODIES:
             if settings[name] is None:  # so that stores of elastic bodies are as they always were
                 del settings[name]
-            elif name != "hardness_bar":
+            elif name not in ("hardness_bar", "shear_bars"):
                 settings[name] = described(settings[name])
         return settings
 

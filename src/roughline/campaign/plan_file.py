@@ -20,6 +20,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
 from roughline.errors.public import public
 from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.friction.law import Friction
 from roughline.halfspace.laws.law import ContactLaw
 
 _Reader = Callable[[Any], Any]
@@ -96,6 +97,8 @@ def _ensembles(table: dict[str, Any], number: int, seed: int) -> Iterable[Ensemb
         hardness_bar=(math.inf,),
         law=(None,),
         half_space=None,
+        friction=None,
+        shear_bars=None,
     )
     name, several = settings.pop("name"), ("points", "roll_off_ratios", "hardness_bar", "law")
     points, roll_offs, hardnesses, laws = (settings.pop(key) for key in several)
@@ -201,6 +204,14 @@ def _half_space(value: Any) -> HalfSpace:
     return found
 
 
+def _friction(value: Any) -> Friction:
+    """A coefficient of friction, or a friction itself or as a table with its name and fields."""
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return Friction(value)
+    found: Friction = _made_by_name(Friction, value)
+    return found
+
+
 def _made_by_name(kind: type, value: Any) -> Any:
     if isinstance(value, kind):
         return value
@@ -237,6 +248,8 @@ _ENSEMBLE = {
     "hardness_bar": _numbers,
     "law": _laws,
     "half_space": _half_space,
+    "friction": _friction,
+    "shear_bars": _numbers,
 }
 """Keys of an ensemble, and of what kind each is."""
 
@@ -255,5 +268,7 @@ _MEANT_KEYS = {
     "forces": ("force_bars,", "F / (E* h L)"),
     "loads": ("force_bars,", "F / (E* h L)"),
     "periodic": ("boundary", '= "periodic"'),
+    **dict.fromkeys(("shear", "shears", "shear_forces"), ("shear_bars,", "Q / (E* h L)")),
+    **dict.fromkeys(("mu", "coefficient_of_friction"), ("friction", "= 0.3")),
 }
 """Keys that others may be meant by, and how."""

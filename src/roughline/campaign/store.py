@@ -174,11 +174,14 @@ def _named(cases: NDArray[np.bool_], dimensions: NDArray[np.float64]) -> list[st
 
 def coordinate_values(group: Any, cases: tuple[int, int]) -> dict[str, NDArray[Any]]:
     """Return what the arrays of an ensemble of so many cases are over, as its attributes say."""
-    return {
+    found = {
         "fractal_dimension": np.array(group.attrs["fractal_dimensions"][: cases[0]]),
         "realisation": np.arange(cases[1]),
         "force_bar": np.array(group.attrs["force_bars"]),
     }
+    if "shear_bars" in group.attrs:
+        found["shear_bar"] = np.array(group.attrs["shear_bars"])
+    return found
 
 
 def _holds(group: Any, name: str, value: NDArray[Any]) -> bool:

@@ -6,7 +6,7 @@ import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -62,6 +62,14 @@ _SLOPE_FACTOR = 1.6  # Persson's theory has sqrt(2), and has too little in conta
 # A load with its stiffness takes as long as so many convolutions of whole fields, on average over a
 # path, most of it for steps that are restricted to the contact.
 _CONVOLUTIONS = 14
+TIMES_WITH_FRICTION = {False: 4, True: 40}
+"""As long as so many loads without friction one with it takes, with both tangents, of uncoupled and
+of coupled bodies: as `make friction-speed` measured on 512 points a side."""
+
+# How shear displaces, of uncoupled and of coupled bodies; the way that each point has slipped; and
+# of each load whose fields are kept its shear, slip, way and stick.
+_SHEAR_BYTES = {False: 40, True: 60}
+_SLIPPED_BYTES, _SLIDING_FIELDS_BYTES = 8, 41
 _SHORTEST_SECONDS = 1e-3  # of a load, on any grid [s]
 _PROBE_POINTS = 512  # points along a side of the grid that is timed
 
@@ -96,6 +104,7 @@ def estimate(
     yielding: bool = False,
     area_fraction: float | None = None,
     law: ContactLaw | None = None,
+    friction: bool | Literal["coupled"] = False,
 ) -> Estimate:
     """Estimate what pressing a surface with the full model will cost.
 
@@ -123,6 +132,9 @@ def estimate(
     law : ContactLaw, optional
         As for :func:`press`. One that pulls takes more memory, all of the surface being within
         reach at worst, and three to six times as long as the time that is given.
+    friction : bool or "coupled", optional
+        Whether the loads have friction, which takes more memory and several times as long; far
+        longer of coupled bodies, whose pressures and shear move each other.
 
     Returns
     -------
@@ -148,11 +160,16 @@ def estimate(
         share = "a share of the surface from 0 to 1 is needed"
         area_fraction = between("area_fraction", area_fraction, 0.0, 1.0, share)
     given: dict[str, Any] = {"several": n_loads > 1, "area_fraction": area_fraction}
-    given |= {"yielding": yielding or law.memory == "dents", "besides": bytes_of_pull(law, 1.0)}
+    coupled = friction == "coupled"
+    if not (isinstance(friction, bool) or coupled):
+        refuse("friction", friction, 'True, False or "coupled" is needed')
+    besides = bytes_of_pull(law, 1.0) + (bytes_of_shear(kept, coupled=coupled) if friction else 0)
+    given |= {"yielding": yielding or law.memory == "dents", "besides": besides}
     pressing = memory_for(shape, periodic, kept, **given)
     memory = _PROCESS_BYTES + _HEIGHT_BYTES * shape[0] * shape[1] + pressing
     seconds = _SHORTEST_SECONDS + _CONVOLUTIONS * _convolution_seconds(shape, periodic)
-    return Estimate(memory, n_loads * seconds)
+    times = TIMES_WITH_FRICTION[coupled] if friction else 1
+    return Estimate(memory, n_loads * times * seconds)
 
 
 def _checked_law(law: ContactLaw | None) -> ContactLaw:
@@ -249,6 +266,11 @@ def bytes_of_pull(law: ContactLaw, share: float) -> float:
         return _ENDLESS_PULL_BYTES
     of_point, of_node = _PULL_BYTES
     return of_point + of_node * share
+
+
+def bytes_of_shear(kept_fields: int, *, coupled: bool) -> float:
+    """Return what friction takes in addition, and what it adds to fields. [bytes/point]"""
+    return _SHEAR_BYTES[coupled] + _SLIPPED_BYTES + _SLIDING_FIELDS_BYTES * kept_fields
 
 
 def expected_area_fraction(

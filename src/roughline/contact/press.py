@@ -22,6 +22,7 @@ from roughline.contact.curve import Curve, LineCurve, SurfaceCurve
 from roughline.contact.estimates import (
     bytes_of_layers,
     bytes_of_pull,
+    bytes_of_shear,
     expected_area_fraction,
     memory_for,
 )
@@ -34,7 +35,7 @@ from roughline.contact.reduced import press_line
 from roughline.contact.revolution import press_profile
 from roughline.contact.shear_loads import GivenShear
 from roughline.contact.sliding import SlidingCurve
-from roughline.contact.sliding_profile import press_sheared_profile
+from roughline.contact.sliding_springs import press_sheared_springs
 from roughline.contact.solver import AS_USUAL, Solver
 from roughline.contact.status import Status
 from roughline.contact.strain import warn_of_strain
@@ -251,12 +252,11 @@ def press(
         stickiness = given_stickiness(law, hardness, body)
         _refuse_fields(body, half_space, grid_error or fields is not False, measures)
         springs = _half_space_of_springs(body, half_space)
-        if isinstance(body, Line):
-            shear.refuse_line()
-            return _complete(body, press_line(body, springs, given), throw)
         if not shear.is_nothing:
-            sheared_curve = press_sheared_profile(body, springs, stickiness, given, shear)
+            sheared_curve = press_sheared_springs(body, springs, stickiness, given, shear)
             return _complete(body, sheared_curve, throw)
+        if isinstance(body, Line):
+            return _complete(body, press_line(body, springs, given), throw)
         return _complete(body, press_profile(body, springs, stickiness, given), throw)
     if not isinstance(body, Surface):
         raise InputError(
@@ -349,12 +349,14 @@ def _refuse_beyond_memory(
         yielding=law.memory == "dents",
         several=loads.values.size > 1,
     )
-    of_layers = bytes_of_layers(half_space, surface.shape, surface.spacing)
-    if fits_into_memory(memory(area_fraction=1.0, besides=of_layers + bytes_of_pull(law, 1.0))):
+    besides = bytes_of_layers(half_space, surface.shape, surface.spacing)
+    if loads.shear is not None:
+        besides += bytes_of_shear(kept, coupled=half_space.is_coupled)
+    if fits_into_memory(memory(area_fraction=1.0, besides=besides + bytes_of_pull(law, 1.0))):
         return
     share = expected_area_fraction(surface, half_space, loads, law)
     refuse_beyond_memory(
-        memory(area_fraction=share, besides=of_layers + bytes_of_pull(law, share)),
+        memory(area_fraction=share, besides=besides + bytes_of_pull(law, share)),
         f"pressing {surface.shape[0]} x {surface.shape[1]} points"
         + (f" and keeping the fields of {kept} loads" if kept else ""),
         "take a smaller piece or every other point" + (", or keep fewer fields" if kept else ""),

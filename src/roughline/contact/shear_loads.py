@@ -18,7 +18,8 @@ from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.friction.law import Friction
 from roughline.halfspace.laws.law import ContactLaw
 
-_MOST_SHARE = 1 - 1e-9  # of what friction bears, that can be held
+LARGEST_SHARE_HELD = 1 - 1e-9
+"""Of what friction bears; more of it slides."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,14 +43,6 @@ class GivenShear:
     def is_nothing(self) -> bool:
         """Whether nothing of it is given."""
         return self.friction is None and self.shear_forces is None and self.slides is None
-
-    def refuse_line(self) -> None:
-        """Refuse friction of a line, whose contacts have no areas that bear shear."""
-        if not self.is_nothing:
-            raise InputError(
-                "friction, shear_forces and slides are given, and the springs of a Line bear no "
-                "shear: press a Profile of a body of revolution, whose springs do, or a Surface"
-            )
 
     def refuse_beside(self, *, n_loads: bool, grid_error: bool) -> None:
         """Refuse what is not known along a path with friction."""
@@ -121,7 +114,7 @@ class GivenShear:
         if control != "forces" or not isinstance(self.friction.coefficient, float):
             return
         limit = self.friction.coefficient * loads
-        beyond = shear > _MOST_SHARE * limit
+        beyond = shear > LARGEST_SHARE_HELD * limit
         beyond &= shear > 0
         if beyond.any():
             at = int(beyond.argmax())

@@ -8,21 +8,43 @@ from typing import Any
 import numpy as np
 
 from roughline.computing.arrays import Mask, Real
-from roughline.contact.curve import SurfaceCurve
+from roughline.contact.curve import Curve, SurfaceCurve
 from roughline.contact.fields import Fields
 from roughline.contact.quantities import SLIDING_QUANTITIES
 from roughline.errors.public import public
 from roughline.halfspace.friction.law import Friction
 
 
-def left_without_shear(slide: Real, shear_force: Real) -> Real:
-    """Return the slides of loads without shear, shape (loads, 2); NaN at others. [length]"""
-    return np.where(shear_force.any(axis=1, keepdims=True), np.nan, slide)
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class CurveWithFriction(Curve):
+    """What friction adds to the curve of a surface, and of springs alike."""
+
+    friction: Friction = field(repr=False)
+    shear_force: Real
+    slide: Real
+    shear_stiffness: Real
+    shear_stiffness_back: Real
+    stick_fraction: Real
+    shear_limit: Real
+    dissipated: Real
+
+    @property
+    def drift(self) -> Real:
+        """The slide that is left where there is no shear force; NaN at other loads. [length]"""
+        return np.where(self.shear_force.any(axis=1, keepdims=True), np.nan, self.slide)
+
+    def _variables(self) -> dict[str, Any]:
+        variables = super()._variables()
+        for each in SLIDING_QUANTITIES:
+            if "x" not in each.dims:
+                values = getattr(self, each.attribute)
+                variables[each.name] = (each.dims, values, each.attributes(self.unit))
+        return variables
 
 
 @public
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
-class SlidingCurve(SurfaceCurve):
+class SlidingCurve(CurveWithFriction, SurfaceCurve):
     """Contact quantities of a surface that is pressed and sheared, over its loads.
 
     Those of :class:`~roughline.SurfaceCurve`, and what follows of friction. Vectors are along x and
@@ -69,40 +91,20 @@ class SlidingCurve(SurfaceCurve):
     [ 0.     4.062  0.376 -4.062 -0.376  4.062] [1.   0.36 0.71 0.36 0.71 0.36]
     """
 
-    friction: Friction = field(repr=False)
-    shear_force: Real
-    slide: Real
-    shear_stiffness: Real
-    shear_stiffness_back: Real
-    stick_fraction: Real
-    shear_limit: Real
-    dissipated: Real
-
-    @property
-    def drift(self) -> Real:
-        """The slide that is left where there is no shear force; NaN at other loads. [length]"""
-        return left_without_shear(self.slide, self.shear_force)
-
     def _variables(self) -> dict[str, Any]:
         variables = super()._variables()
+        kept = [one for one in self.fields if one is not None]
         for each in SLIDING_QUANTITIES:
-            kept = [one for one in self.fields if one is not None]
-            if "x" not in each.dims:
-                values = getattr(self, each.attribute)
-            elif kept:
-                values = np.array([getattr(one, each.attribute) for one in kept], float)
-                if not self._fields_are_of_some:
-                    among = np.full((len(self.fields), *values.shape[1:]), np.nan)
-                    among[self._with_fields] = values
-                    values = among
-            else:
+            if "x" not in each.dims or not kept:
                 continue
-            first = "field_load" if "x" in each.dims and self._fields_are_of_some else "load"
-            variables[each.name] = (
-                (first, *each.dims[1:]),
-                values,
-                each.attributes(self.unit),
-            )
+            values = np.array([getattr(one, each.attribute) for one in kept], float)
+            if not self._fields_are_of_some:
+                among = np.full((len(self.fields), *values.shape[1:]), np.nan)
+                among[self._with_fields] = values
+                values = among
+            first = "field_load" if self._fields_are_of_some else "load"
+            dims = first, *each.dims[1:]
+            variables[each.name] = (dims, values, each.attributes(self.unit))
         return variables
 
 

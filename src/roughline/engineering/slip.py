@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -81,7 +82,21 @@ class ShearCycles:
     cycles: int
     plain: SurfaceCurve | None = None  # the forces of Jäger's stick areas, without shear
     ratio: float | None = None  # E* / G*; None of coated bodies
-    coarser: ShearCycles | None = None  # on half as many points a side
+    others: Mapping[str, ShearCycles | None] = field(default_factory=dict)
+    """The same followed otherwise, by the causes that leave it open; None if that is not known."""
+
+    times: float = 1.0  # as far as it is from another, of which it tells, that this may be off
+    slips_alike: bool = False  # whether all that follows from slip is as far as the micro-slip
+
+    @property
+    def is_bounded(self) -> bool:
+        """Whether it is known how far each cause leaves it open, if any does."""
+        return bool(self.others) and all(self.others.values())
+
+    def by(self, cause: str) -> ShearCycles:
+        """The same, as one cause alone leaves it open."""
+        known = {cause: self.others[cause]} if cause in self.others else {}
+        return replace(self, others=known)
 
     @property
     def amplitude(self) -> float:
@@ -117,6 +132,13 @@ class ShearCycles:
     def stiffness_back(self) -> float:
         """There, on less of it. [N / m]"""
         return _along(self.curve.shear_stiffness_back[self._turning])
+
+    @property
+    def one_point_of_stick(self) -> float:
+        """By what share one point more that sticks, at the largest force, makes it stiffer. [1]"""
+        curve, turn = self.curve, self._turning
+        contact = float(curve.area_fraction[turn]) * math.prod(curve.surface.shape)
+        return 0.5 / max(float(curve.stick_fraction[turn]) * contact, 1.0)
 
     @property
     def micro_slip(self) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import ClassVar
@@ -16,6 +16,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import allowed_choice, refuse, shown
 from roughline.errors.public import public
 from roughline.facts.fact import Fact
+from roughline.margins.sheared import Sheared
 from roughline.margins.spread import Spread, Values
 from roughline.margins.variant import Curves, Variant
 from roughline.question.case import Case
@@ -62,6 +63,14 @@ class Cause(ABC):
     @abstractmethod
     def spread(self, case: Case, curves: Curves, variant: str) -> Spread | None:
         """Both ends that it alone leaves open of a variant; None where that is not known."""
+
+    def opens_shear(self, case: Case) -> bool:
+        """Whether it leaves open what a shear force does to the body as asked; default: no."""
+        return False
+
+    def sheared(self, case: Case, asked: Sheared) -> Sheared | None:
+        """What is sheared to learn that, beside the body and its path; None if it is not known."""
+        return None
 
     def facts(self, case: Case, curves: Curves) -> Sequence[Fact]:
         """What is worth telling of it: where it is wide, absent or grave."""
@@ -112,6 +121,14 @@ class OtherBodies(Cause):
         values = Values.of(curve)
         others = [Values.of(each) for each in found] or [values]
         return Spread.between(values, others, times=self.times, more=self.more(curves))
+
+    def opens_shear(self, case: Case) -> bool:
+        """Whether it leaves open what a shear force does: as much as its first body shows."""
+        return True
+
+    def sheared(self, case: Case, asked: Sheared) -> Sheared | None:
+        """The first of the bodies, along the same path."""
+        return replace(asked, body=self.body(case, 0), times=self.times)
 
     def more(self, curves: Curves) -> Real | float:
         """By which share values may be larger or smaller besides. [1]"""
@@ -166,6 +183,12 @@ class Causes:
             If there is none of that name.
         """
         return self._by_name[allowed_choice("name", name, self._by_name)]
+
+    def sheared_otherwise(self, case: Case) -> Mapping[str, Sheared | None]:
+        """What each shears that leaves open what a shear force does; None where it is not known."""
+        if (asked := Sheared.of(case)) is None:
+            return {}
+        return {each.name: each.sheared(case, asked) for each in self if each.opens_shear(case)}
 
     def add(self, cause: Cause) -> None:
         """Add a cause: what it leaves open is then in the intervals of every assessment.

@@ -11,6 +11,7 @@ from roughline.contact.fields import Fields
 from roughline.contact.measures import Measure
 from roughline.facts.fact import Fact
 from roughline.margins.cause import OtherBodies
+from roughline.margins.sheared import Sheared
 from roughline.margins.variant import AS_ASKED, Curves, Variant
 from roughline.question.case import Case
 from roughline.question.source import pressed_body
@@ -41,6 +42,14 @@ class FilledPoints(OtherBodies):
         found = pressed_body([each.filled_by(method) for each in case.filled])
         assert isinstance(found, Surface)
         return found
+
+    def opens_shear(self, case: Case) -> bool:
+        """Whether points were missing."""
+        return bool(case.filled)
+
+    def sheared(self, case: Case, asked: Sheared) -> Sheared | None:
+        """None: what stands on filled points, and slips there, is not known."""
+        return None
 
     def more(self, curves: Curves) -> Real | float:
         """What force that stands on filled points leaves open, relative to the values. [1]"""

@@ -16,6 +16,7 @@ from roughline.contact.quantities import RESOLVED_FROM
 from roughline.engineering.intervals import Ends, Intervals
 from roughline.facts.fact import Fact
 from roughline.margins.cause import Cause
+from roughline.margins.sheared import Sheared
 from roughline.margins.spread import Spread, Values, intervals_within
 from roughline.margins.variant import Curves, Variant
 from roughline.question.assumptions import broken
@@ -59,6 +60,22 @@ class FinerGrid(Cause):
             for stage in STAGES
         ]
         return [*listed, replace(of_grid, needed=partial(_with_errors, pressed), share=0.0)]
+
+    def opens_shear(self, case: Case) -> bool:
+        """Always: spots of few points do not slip bit by bit."""
+        return True
+
+    def sheared(self, case: Case, asked: Sheared) -> Sheared | None:
+        """The path on half as many points a side, which need not resolve a layer.
+
+        Where other causes leave the same open and are not known, it would not tell how far.
+        """
+        body, question = asked.body, case.question
+        is_known = question.joint is None and not case.filled and not broken("grid", body)
+        is_even = not (body.shape[0] % 2 or body.shape[1] % 2)
+        if not (case.loads.grid_error and is_known and is_even) or question.coated:
+            return None
+        return replace(asked, body=body.coarsened())
 
     def spread(self, case: Case, curves: Curves, variant: str) -> Spread | None:
         """Both ends that finer grids leave open; None where their errors were not estimated."""

@@ -53,6 +53,10 @@ class OtherPlaces(Cause):
             return ()
         return _listed(case, pressed.name, body, self.name)
 
+    def opens_shear(self, case: Case) -> bool:
+        """Whether a joint is meant, of which the map is a part."""
+        return case.question.joint is not None
+
     def spread(self, case: Case, curves: Curves, variant: str) -> Spread | None:
         """Both ends that the rest of the surface leaves open; None if the map tells of none."""
         curve, tiled = curves.get(variant), tiled_curves(case, curves, variant)

@@ -69,6 +69,7 @@ class Variant:
     shape: tuple[int, int]  # points along the sides of a surface, of whose time it takes a share
     periodic: bool | Literal["x", "y"]
     share: float = 1.0
+    rubs: bool = False  # whether it is sheared, which takes memory of its own
 
 
 class Stopped(KeyboardInterrupt):

@@ -191,10 +191,11 @@ class Shear:
         """Refuse a shear force [N] that friction does not bear under the force that presses [N]."""
         limit = friction * pressing
         if not force < _MOST_SHARE * limit:
+            by = f" by {engineering(force - limit, 'N')}" if force > limit else ""
             raise InputError(
                 f"is {engineering(force, 'N')}, and friction bears less than mu F = {friction:g} x "
-                f"{engineering(pressing, 'N')} = {engineering(limit, 'N')}: it is too large by "
-                f"{engineering(force - limit, 'N')}, and the bodies slide; give less",
+                f"{engineering(pressing, 'N')} = {engineering(limit, 'N')}: it is too large"
+                f"{by}, and the bodies slide; give less",
                 "shear",
             )
 
@@ -268,7 +269,7 @@ _NOT_OF_LINES = {
     "rough line in many; leave it out, or press a map",
     Fluid: "along a line, in one dimension, any contact stops the flow; leave it out, or press a "
     "map",
-    Shear: "the springs of a line bear no shear; leave it out, or press a map",
+    Shear: "answers of stick and slip are those of maps; leave it out, or press a map",
     Joint: "a line stands for the square of its length alone, and what lies beyond is not known; "
     "leave it out",
 }

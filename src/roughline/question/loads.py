@@ -153,6 +153,11 @@ class LoadCase:
         others = replace(self, forces=forces, depths=[], n_loads=None, fields=fields)
         return replace(others, among=solved, lifted=None)
 
+    def alone_under(self, forces: Sequence[float]) -> LoadCase:
+        """The body under other forces, without all that is found beside. [N]"""
+        others = replace(self, forces=[*forces], asked=(), fields=(), measures=())
+        return replace(others, grid_error=False, lifted=None)
+
     def sheared(
         self, half_space: HalfSpace, friction: float, shear_forces: Sequence[tuple[float, float]]
     ) -> LoadCase:

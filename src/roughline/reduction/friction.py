@@ -20,11 +20,14 @@ References
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.reduction.revolution import Revolution
+from roughline.reduction.springs import Springs
 
 _SAME_DEPTH = 1e-10  # of the largest: corners that are closer are one
 _DEPTH, _FORCE, _SLIDE, _SHEAR = range(4)  # rows of a rise; slides are times G* / E*
@@ -34,17 +37,87 @@ def _at_rest() -> Real:
     return np.zeros((4, 1))
 
 
-@dataclass(frozen=True, eq=False)
-class ShearedRevolution:
-    """A body of revolution on springs that bear shear, as its loads so far have left it."""
+class NormalSprings(Protocol):
+    """Springs under normal loads alone."""
 
-    body: Revolution  # which does not stick
+    def pressed(self, depth: float) -> tuple[float, float]:
+        """Force at a depth, and its work up to there. [force], [energy]"""
+        ...
+
+    def depth_under(self, force: float) -> float:
+        """Depth under a force. [length]"""
+        ...
+
+    def stiffness(self, depth: float) -> float:
+        """Stiffness of the springs that touch at a depth. [force / length]"""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class SpringsOfRevolution:
+    """Those of a body of revolution, which does not stick."""
+
+    body: Revolution
+
+    def pressed(self, depth: float) -> tuple[float, float]:
+        """Force at a depth, and its work up to there. [force], [energy]"""
+        a = self._radius(depth)
+        return (self.body.force(a, depth), self.body.stored(a, depth)) if a > 0 else (0.0, 0.0)
+
+    def depth_under(self, force: float) -> float:
+        """Depth under a force. [length]"""
+        radius = self.body.moved("forces", 0.0, force).radius
+        return self.body.depth(radius, force) if radius else 0.0
+
+    def stiffness(self, depth: float) -> float:
+        """Stiffness of the springs that touch at a depth. [force / length]"""
+        return 2 * self.body.E_star * self._radius(depth)
+
+    def _radius(self, depth: float) -> float:
+        return self.body.moved("depths", 0.0, depth).radius
+
+
+@dataclass(frozen=True, eq=False)
+class SpringsOfLine:
+    """Those of a rough line, one under each point."""
+
+    springs: Springs
+
+    @cached_property
+    def _sums(self) -> tuple[Real, Real, Real]:
+        """Separations, rising, and the sums of those before each, and of their squares."""
+        rising: Real = np.sort(self.springs.separations)
+        first: Real = np.append(0.0, np.cumsum(rising))
+        second: Real = np.append(0.0, np.cumsum(rising * rising))
+        return rising, first, second
+
+    def pressed(self, depth: float) -> tuple[float, float]:
+        """Force at a depth, and its work up to there. [force], [energy]"""
+        z, first, second = self._sums
+        n, k = int(np.searchsorted(z, depth)), self.springs.spring_stiffness
+        force = k * (n * depth - first[n])
+        return force, k * (n * depth**2 - 2 * depth * first[n] + second[n]) / 2
+
+    def depth_under(self, force: float) -> float:
+        """Depth under a force. [length]"""
+        return float(self.springs.under_forces(np.array([force])).depth_under(np.array([force]))[0])
+
+    def stiffness(self, depth: float) -> float:
+        """Stiffness of the springs that touch at a depth. [force / length]"""
+        return self.springs.spring_stiffness * int(np.searchsorted(self._sums[0], depth))
+
+
+@dataclass(frozen=True, eq=False)
+class ShearedSprings:
+    """A body on springs that bear shear, as its loads so far have left it."""
+
+    springs: NormalSprings
     friction: float  # mu [1]
     ratio: float  # G* / E* [1]
     rise: Real = field(default_factory=_at_rest)  # corners of the line from rest to the load
     stick_depth: float = 0.0  # springs that touch before stick where shear goes on. [length]
     dissipated: float = 0.0  # by the last load [energy]
-    known: dict[float, tuple[float, float]] = field(default_factory=dict)  # by depth: _pressed
+    known: dict[float, tuple[float, float]] = field(default_factory=dict)  # by depth: pressed
 
     @property
     def slide(self) -> float:
@@ -57,19 +130,19 @@ class ShearedRevolution:
         return float(self.rise[_SHEAR, -1])
 
     @property
-    def stick_radius(self) -> float:
-        """Radius within which springs stick where shear goes on as it did last. [length]"""
-        return self._radius_at(self.stick_depth)
+    def stick_stiffness(self) -> float:
+        """Normal stiffness of what sticks where shear goes on as it did last. [force / length]"""
+        return self.springs.stiffness(self.stick_depth)
 
-    def under(self, depth: float, force: float, shear_force: float) -> ShearedRevolution:
+    def under(self, depth: float, force: float, shear_force: float) -> ShearedSprings:
         """Lead the body to a normal load and a shear force of less than mu F."""
         return self._led(np.array([depth, force, np.nan, shear_force]), _FORCE, _SHEAR)
 
-    def at(self, depth: float, force: float, slide: float) -> ShearedRevolution:
+    def at(self, depth: float, force: float, slide: float) -> ShearedSprings:
         """Lead the body to a normal load and a slide."""
         return self._led(np.array([depth, force, self.ratio * slide, np.nan]), _DEPTH, _SLIDE)
 
-    def _led(self, load: Real, across: int, up: int) -> ShearedRevolution:
+    def _led(self, load: Real, across: int, up: int) -> ShearedSprings:
         """Lead the body to a load that is given in the plane of two rows."""
         rise = self._until(load)
         sign = 1.0 if load[up] >= rise[up, -1] else -1.0
@@ -105,21 +178,12 @@ class ShearedRevolution:
         """Depth and force of a normal load, of which either is given."""
         if row == _DEPTH:
             return value, self._pressed(value)[0]
-        radius = self.body.moved("forces", 0.0, value).radius
-        return (self.body.depth(radius, value) if radius else 0.0), value
-
-    def _radius_at(self, depth: float) -> float:
-        return self.body.moved("depths", 0.0, depth).radius
+        return self.springs.depth_under(value), value
 
     def _pressed(self, depth: float) -> tuple[float, float]:
         """Normal force at a depth, and its work up to there; corners are asked for again."""
         if depth not in self.known:
-            a = self._radius_at(depth)
-            touching = a > 0
-            self.known[depth] = (
-                self.body.force(a, depth) if touching else 0.0,
-                self.body.stored(a, depth) if touching else 0.0,
-            )
+            self.known[depth] = self.springs.pressed(depth)
         return self.known[depth]
 
     def _dissipated(self, depth: float, slide: float) -> float:

@@ -72,13 +72,16 @@ def _is_sheared(pressed: Pressed) -> bool:
     return pressed.sought.sheared is not None
 
 
+_Found = Callable[[ShearCycles], float | None]
+
+
 def _rows_of_shear(
-    found: Callable[[ShearCycles], float | None], *, extensive: bool = False
+    found: _Found, *, extensive: bool = False, of_slip: bool = True, by_points: bool = False
 ) -> Callable[[Pressed], Real | None]:
     """Values of what a shear force does, in rows, of the one load under which it does it.
 
-    The interval is what the grid leaves open: as far as half as many points a side are away, to
-    either side, by a factor.
+    The interval is as far as the same followed otherwise is away, to either side, by a factor; of
+    several causes, the logarithms of these add in squares.
     """
 
     def value(pressed: Pressed) -> Real | None:
@@ -86,15 +89,39 @@ def _rows_of_shear(
         one = None if sheared is None else found(sheared)
         if sheared is None or one is None:
             return None
-        rows, coarser = [one], sheared.coarser
-        if coarser is not None and one > 0:
-            other = found(coarser)
-            factor = max(other / one, one / other) if other and other > 0 else math.nan
+        rows = [one]
+        if sheared.is_bounded and one > 0:
+            others = sheared.others.values()
+            logarithms = [_distance(found, sheared, each, of_slip=of_slip) for each in others]
+            if by_points and any(each is not None and each.slips_alike for each in others):
+                logarithms.append(sheared.one_point_of_stick)
+            factor = math.exp(math.hypot(*logarithms))
             rows += [one / factor, one * factor]
         scale = pressed.scale if extensive else 1.0
         return np.where(pressed.curve.converged, np.array(rows)[:, np.newaxis] * scale, np.nan)
 
     return value
+
+
+def _distance(
+    found: _Found, sheared: ShearCycles, other: ShearCycles | None, *, of_slip: bool
+) -> float:
+    """Logarithm of the factor by which the same followed otherwise leaves a value open."""
+    if other is None:
+        return math.nan
+    compared = [found]
+    if of_slip and other.slips_alike:
+        compared.append(lambda each: each.micro_slip)
+    return other.times * max(abs(math.log(_ratio(each(other), each(sheared)))) for each in compared)
+
+
+def _ratio(there: float | None, here: float | None) -> float:
+    """How much larger a value is than another; NaN where one of them is zero, or not known."""
+    if there is None or here is None:
+        return math.nan
+    if there == here:
+        return 1.0
+    return there / here if min(there, here) > 0 else math.nan
 
 
 def _force_texts(pressed: Pressed) -> Mapping[str, str]:
@@ -188,7 +215,7 @@ SHEAR_ANSWERS = (
         symbol="u_Q",
         unit="m",
         formula="slide from no shear to Q, stick and slip",
-        value=_rows_of_shear(lambda sheared: sheared.displacement),
+        value=_rows_of_shear(lambda sheared: sheared.displacement, of_slip=False),
         answers_question=_is_sheared,
         facts=_beside_closed_form,
     ),
@@ -207,7 +234,9 @@ SHEAR_ANSWERS = (
         symbol="k_t0",
         unit="N/m",
         formula="dQ/du without shear, all of the contact stuck",
-        value=_rows_of_shear(lambda sheared: sheared.stiffness_before, extensive=True),
+        value=_rows_of_shear(
+            lambda sheared: sheared.stiffness_before, extensive=True, of_slip=False
+        ),
         answers_question=_is_sheared,
         is_extensive=True,
         may_be_infinite=True,
@@ -218,7 +247,7 @@ SHEAR_ANSWERS = (
         symbol="k_tQ",
         unit="N/m",
         formula="dQ/du at Q, on more of it",
-        value=_rows_of_shear(lambda sheared: sheared.stiffness_on, extensive=True),
+        value=_rows_of_shear(lambda sheared: sheared.stiffness_on, extensive=True, by_points=True),
         under=lambda _pressed: ("stiffness_on_return", 1.0),
         is_extensive=True,
         may_be_infinite=True,
@@ -229,7 +258,7 @@ SHEAR_ANSWERS = (
         symbol="k_tR",
         unit="N/m",
         formula="dQ/du at Q, on less of it, all of the contact stuck",
-        value=_rows_of_shear(lambda sheared: sheared.stiffness_back, extensive=True),
+        value=_rows_of_shear(lambda sheared: sheared.stiffness_back, extensive=True, of_slip=False),
         is_extensive=True,
         may_be_infinite=True,
     ),

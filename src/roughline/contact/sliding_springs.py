@@ -1,8 +1,8 @@
-"""The reduced model's curve of a body of revolution that is pressed and sheared, with friction."""
+"""The reduced model's curve of a body that is pressed and sheared, on springs with friction."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -10,18 +10,25 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.contact.curve import LineCurve
 from roughline.contact.loads import GivenLoads
-from roughline.contact.quantities import SLIDING_QUANTITIES
+from roughline.contact.reduced import press_line
 from roughline.contact.revolution import press_profile
 from roughline.contact.shear_loads import GivenShear, ShearLoads
-from roughline.contact.sliding import left_without_shear
+from roughline.contact.sliding import CurveWithFriction
 from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.friction.law import Friction
 from roughline.halfspace.laws.jkr import JKR
 from roughline.halfspace.laws.unilateral import Unilateral
-from roughline.reduction.friction import ShearedRevolution
+from roughline.reduction.friction import (
+    NormalSprings,
+    ShearedSprings,
+    SpringsOfLine,
+    SpringsOfRevolution,
+)
 from roughline.reduction.revolution import Revolution
+from roughline.reduction.springs import Springs
+from roughline.topography.body import Line
 from roughline.topography.profile import Profile
 
 _ACROSS_ROUNDING = 1e-12  # of the largest load along the surface: what is across it
@@ -30,13 +37,14 @@ _SLIDES_FROM = 1 - 1e-9  # of mu F
 
 @public
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
-class SlidingLineCurve(LineCurve):
-    """Contact quantities of a profile that is pressed and sheared, over its loads, by springs.
+class SlidingLineCurve(CurveWithFriction, LineCurve):
+    """Contact quantities of a profile or a line that is pressed and sheared, by springs.
 
     Those of :class:`~roughline.LineCurve`, and what follows of friction, as a
     :class:`~roughline.SlidingCurve` has it. All is exact where Poisson's ratio is zero, for any
     history of loads whose shear is along one line. With other ratios shear is not quite along the
-    slide where springs slip, and slides of a ball are too large by up to 0.3 %.
+    slide where springs slip, and slides of a ball are too large by up to 0.3 %. A rough line has
+    the history of its springs exactly, and stands for its surface as far as its stiffness does.
 
     Attributes
     ----------
@@ -53,7 +61,8 @@ class SlidingLineCurve(LineCurve):
     shear_stiffness_back : ndarray, shape (loads, 2, 2)
         Exact dQ/d(slide) on turning back, 2 G* a, as all of the contact sticks. [force / length]
     stick_fraction : ndarray, shape (loads,)
-        Share of the contact that sticks where shear goes on, (c / a)². [1]
+        Share of the contact that sticks where shear goes on, (c / a)²; of a line, of its springs
+        in contact. [1]
     shear_limit : ndarray, shape (loads,)
         Largest shear force that friction bears, mu F. [force]
     dissipated : ndarray, shape (loads,)
@@ -61,41 +70,26 @@ class SlidingLineCurve(LineCurve):
         and slide. [energy]
     """
 
-    friction: Friction = field(repr=False)
-    shear_force: Real
-    slide: Real
-    shear_stiffness: Real
-    shear_stiffness_back: Real
-    stick_fraction: Real
-    shear_limit: Real
-    dissipated: Real
 
-    @property
-    def drift(self) -> Real:
-        """The slide that is left where there is no shear force; NaN at other loads. [length]"""
-        return left_without_shear(self.slide, self.shear_force)
-
-    def _variables(self) -> dict[str, Any]:
-        variables = super()._variables()
-        for each in SLIDING_QUANTITIES:
-            if "x" not in each.dims:
-                values = getattr(self, each.attribute)
-                variables[each.name] = (each.dims, values, each.attributes(self.unit))
-        return variables
-
-
-def press_sheared_profile(
-    profile: Profile,
+def press_sheared_springs(
+    body: Profile | Line,
     half_space: Homogeneous,
     law: JKR | None,
     given: GivenLoads,
     given_shear: GivenShear,
 ) -> SlidingLineCurve:
-    """Press and shear a body of revolution by the reduction method, springs with friction."""
+    """Press and shear a body of revolution, or a reduced line, on springs with friction."""
     _refuse_beyond_springs(half_space, law, given_shear.friction)
-    curve = press_profile(profile, half_space, None, given)
+    springs: NormalSprings
+    if isinstance(body, Line):
+        curve, rows = press_line(body, half_space, given), body.heights.size
+        springs = SpringsOfLine(Springs.under(body.heights, body.spacing, half_space.E_star))
+    else:
+        curve, rows = press_profile(body, half_space, None, given), body.radii.size
+        profile = Revolution.of(body.radii, body.heights, half_space.E_star, 0.0)
+        springs = SpringsOfRevolution(profile)
     pressed = curve.force if curve.control == "forces" else curve.depth
-    law_of_springs, no_fields = Unilateral(), (profile.radii.size, 1)
+    law_of_springs, no_fields = Unilateral(), (rows, 1)
     loads = given_shear.checked(curve.control, pressed, half_space, law_of_springs, no_fields)
     assert loads is not None
     assert isinstance(loads.friction.coefficient, float)
@@ -103,9 +97,8 @@ def press_sheared_profile(
     along, limit = loads.values @ axis, loads.friction.coefficient * curve.force
     if loads.control == "shear_forces":
         _refuse_sliding(along, limit)
-    body = Revolution.of(profile.radii, profile.heights, half_space.E_star, 0.0)
     ratio = 1 / half_space.even_shear[1]
-    state, states = ShearedRevolution(body, loads.friction.coefficient, ratio), []
+    state, states = ShearedSprings(springs, loads.friction.coefficient, ratio), []
     for depth, force, value in zip(curve.depth, curve.force, along, strict=True):
         led = state.under if loads.control == "shear_forces" else state.at
         states.append(state := led(depth, force, value))
@@ -113,8 +106,8 @@ def press_sheared_profile(
     on = back.copy()
     for i, each in enumerate(states):
         if each.stick_depth < curve.depth[i]:
-            on[i] = ratio * 2 * half_space.E_star * each.stick_radius
-    touches = curve.stiffness > 0
+            on[i] = ratio * each.stick_stiffness
+    touches, rank = curve.stiffness > 0, 1 if isinstance(body, Line) else 2  # points of a disc
     vectors: dict[str, Any] = {
         name: np.outer([getattr(each, name) for each in states], axis)
         for name in ("shear_force", "slide")
@@ -127,7 +120,7 @@ def press_sheared_profile(
         **(vectors | {loads.control.removesuffix("s"): loads.values}),
         shear_stiffness=np.multiply.outer(back, plane) - np.multiply.outer(back - on, tensor),
         shear_stiffness_back=np.multiply.outer(back, plane),
-        stick_fraction=np.where(touches, on / np.where(touches, back, 1.0), 0.0) ** 2,
+        stick_fraction=np.where(touches, on / np.where(touches, back, 1.0), 0.0) ** rank,
         shear_limit=limit,
         dissipated=np.array([each.dissipated for each in states]),
     )
@@ -139,18 +132,18 @@ def _refuse_beyond_springs(
     """Refuse what springs of a profile do not know."""
     if law is not None:
         raise InputError(
-            "friction and law are given, and springs of a Profile that stick bear no friction: "
+            "friction and law are given, and springs that stick bear no friction: "
             "leave one of the two out"
         )
     if isinstance(friction, Friction) and not friction.is_even:
         raise InputError(
-            "friction has a strength or a field, and springs of a Profile have one coefficient: "
+            "friction has a strength or a field, and springs have one coefficient: "
             "give a number such as rl.Friction(0.3), or press a Surface"
         )
     if half_space.is_coupled:
         raise InputError(
             f"half_space is {half_space!r}, in which pressure displaces along the surface, and the "
-            "springs of a Profile do not: give beta=0.0, or press a Surface"
+            "springs do not: give beta=0.0, or press a Surface"
         )
 
 
@@ -167,7 +160,7 @@ def _axis(loads: ShearLoads) -> Real:
         x, y = loads.values[beside.argmax()]
         raise InputError(
             f"{loads.control}[{beside.argmax()}] is ({x:g}, {y:g}) and {loads.control}[{largest}] "
-            f"({loads.values[largest, 0]:g}, {loads.values[largest, 1]:g}); springs of a Profile "
+            f"({loads.values[largest, 0]:g}, {loads.values[largest, 1]:g}); springs "
             "bear shear along one line: give loads along it, or press a Surface"
         )
     return axis

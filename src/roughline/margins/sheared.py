@@ -1,0 +1,132 @@
+"""A shear force to and fro: the body and its path, and the same as causes follow it otherwise."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from roughline.contact.curve import SurfaceCurve
+from roughline.contact.estimates import TIMES_WITH_FRICTION
+from roughline.contact.sliding import SlidingCurve
+from roughline.engineering.slip import ShearCycles
+from roughline.margins.variant import AS_ASKED, Curves, Variant
+from roughline.question.case import Case
+from roughline.question.loads import LoadCase
+from roughline.question.shear_path import ShearPath
+from roughline.topography.body import Surface
+
+SHEARED = "sheared"
+"""Name of the variant that is sheared under the load, to and fro; those of others begin so."""
+
+_PLAIN = "without shear"  # under the forces of Jäger's stick areas
+
+
+@dataclass(frozen=True, eq=False)
+class Sheared:
+    """A body, and the path along which it is sheared."""
+
+    body: Surface
+    path: ShearPath
+    times: float = 1.0
+    """As far as it is from the path as asked, that this may be off."""
+
+    slips_alike: bool = False  # whether all that follows from slip is as far as the micro-slip
+
+    @classmethod
+    def of(cls, case: Case) -> Sheared | None:
+        """The body and the path of a case; None where no shear is asked for."""
+        path = ShearPath.of(case)
+        return cls(case.body, path) if path is not None and isinstance(case.body, Surface) else None
+
+
+def shear_presses(
+    case: Case, as_asked: Variant, otherwise: Mapping[str, Sheared | None]
+) -> list[Variant]:
+    """What is pressed where a shear is asked for: its path, as causes follow it, and without it.
+
+    `otherwise` is what each cause that leaves its answers open follows; None where it is not known.
+    """
+    asked = Sheared.of(case)
+    if asked is None:
+        return []
+    listed = [_variant(case, as_asked, SHEARED, "shear", asked)]
+    for name, other in otherwise.items():
+        if other is not None:
+            listed.append(_variant(case, as_asked, _named(name), name, other))
+    if not case.question.coated:
+        plain = len(_plain_forces(asked.path, 1.0)) / case.loads.count
+        needed = partial(_without_shear, case, asked.path)
+        listed.append(replace(as_asked, name=_PLAIN, purpose="slip", needed=needed, share=plain))
+    return listed
+
+
+def shear_cycles(
+    case: Case, curves: Curves, otherwise: Mapping[str, Sheared | None]
+) -> ShearCycles | None:
+    """What the path of a case gave; None without one, and where not all of it was solved."""
+    asked, pair = Sheared.of(case), case.pair
+    found = None if asked is None else _cycles(asked, curves.complete(SHEARED))
+    if found is None or pair is None:
+        return None
+    others = {
+        name: None if each is None else _cycles(each, curves.complete(_named(name)))
+        for name, each in otherwise.items()
+    }
+    ratio = None if pair.coated else pair.E_star / pair.G_star
+    return replace(found, plain=curves.complete(_PLAIN), ratio=ratio, others=others)
+
+
+def _named(cause: str) -> str:
+    return f"{SHEARED}, {cause}"
+
+
+def _variant(case: Case, as_asked: Variant, name: str, purpose: str, sheared: Sheared) -> Variant:
+    """A body that is sheared, as one entry of the list of presses."""
+    half_space = case.question.sheared_half_space
+    coupled = half_space is not None and half_space.is_coupled
+    loads = len(sheared.path.shear_forces)
+    return replace(
+        as_asked,
+        name=name,
+        purpose=purpose,
+        needed=partial(_along, case, sheared),
+        shape=sheared.body.shape,
+        share=TIMES_WITH_FRICTION[coupled] * loads / case.loads.count,
+        rubs=True,
+    )
+
+
+def _along(case: Case, sheared: Sheared, curves: Curves) -> LoadCase | None:
+    """A body along its path; None where the load was not solved."""
+    force = _force(case, curves)
+    return None if force is None else sheared.path.on(sheared.body, case, force)
+
+
+def _without_shear(case: Case, path: ShearPath, curves: Curves) -> LoadCase | None:
+    """The body under the forces of its stick areas; None where its load was not solved."""
+    force = _force(case, curves)
+    return None if force is None else case.loads.alone_under(_plain_forces(path, force))
+
+
+def _plain_forces(path: ShearPath, force: float) -> list[float]:
+    """Forces of Jäger's stick areas, from that at the largest shear force on, evenly. [N]"""
+    least = force - path.amplitude / path.friction
+    return np.linspace(least, force, path.per_cycle + 1).tolist()  # an odd number, for Simpson
+
+
+def _force(case: Case, curves: Curves) -> float | None:
+    """The force that presses the body; None if that was not solved. [N]"""
+    curve, largest = curves.by_name[AS_ASKED], case.loads.largest
+    return float(curve.force[largest]) if curve.converged[largest] else None
+
+
+def _cycles(sheared: Sheared, curve: SurfaceCurve | None) -> ShearCycles | None:
+    """What a path gave; None where not all of it was solved."""
+    if not isinstance(curve, SlidingCurve) or not curve.converged.all():
+        return None
+    path = sheared.path
+    of_path = curve, path.friction, path.pressing - 1, path.per_cycle, path.cycles
+    return ShearCycles(*of_path, times=sheared.times, slips_alike=sheared.slips_alike)
