@@ -181,6 +181,37 @@ def test_a_layer_of_what_lies_below_it_changes_nothing():
     assert "slip_displacement" not in coated  # which follows from one ratio of stiffnesses
 
 
+def test_bodies_that_yield_slip_as_their_unloading_says():
+    """Jäger's theorem is exact without displacement across the shear, from where it was pressed."""
+    pair = ("E=3 GPa nu=0", "E=3 GPa nu=0")
+    result = rl.assess(asked(rough(), pair, hardness="20 MPa"))
+    sheared = result.sought.sheared
+    assert 0.1 < result.curve.plastic_fraction[0] < 0.9
+    closed = sheared.closed_form
+    assert sheared.displacement == pytest.approx(closed.displacement, rel=1e-5)
+    assert result.answers["shear_displacement"].ends is not None
+    elastic = rl.assess(asked(rough(), pair, elastic=True)).sought.sheared
+    assert sheared.micro_slip < 0.9 * elastic.micro_slip
+
+
+def test_of_two_materials_that_yield_the_coupling_is_left_out_and_that_is_said():
+    pair = ("E=3 GPa nu=0.2 hardness=60 MPa", "rigid")
+    result = rl.assess(asked(rough(), pair))
+    assert not result.sought.sheared.curve.half_space.is_coupled
+    (told,) = (each for each in result.facts if each.kind == "yielding_bodies_uncoupled")
+    assert told.numbers["beta"] == pytest.approx(0.375)
+    elastic = rl.assess(asked(rough(), pair, elastic=True))
+    assert elastic.sought.sheared.curve.half_space.is_coupled
+    assert "yielding_bodies_uncoupled" not in {each.kind for each in elastic.facts}
+
+
+def test_what_the_scatter_of_a_hardness_does_to_slip_is_not_known():
+    result = rl.assess(asked(rough(), "steel,steel", grid_error=True))
+    assert result.answers["micro_slip"].ends is None
+    (told,) = (each for each in result.facts if each.kind == "shear_left_open")
+    assert "the scatter of the hardness" in told.numbers["causes"]
+
+
 REFUSED = {
     "no friction": ({"ask": rl.Shear("0.2 N")}, "needs friction that bears it"),
     "no shear": ({"ask": [rl.Friction(MU), rl.Shear(cycles=2)]}, "without a shear force"),
@@ -192,7 +223,14 @@ REFUSED = {
         {"ask": [rl.Friction(MU), rl.Shear("0.4 N")]},
         "is 400 mN, and friction bears less than mu F = 0.3 x 1 N = 300 mN: it is too large by 100",
     ),
-    "yield": ({"hardness": "1 GPa"}, "bodies that yield and are sheared"),
+    "layers, yielding": (
+        {
+            "materials": "E=1 GPa nu=0.4 0.1 mm on E=3 GPa nu=0.3, rigid",
+            "hardness": "1 GPa",
+            "periodic": True,
+        },
+        "coated bodies that yield and are sheared",
+    ),
     "adhesion": (
         {"ask": [rl.Friction(MU), rl.Shear("0.2 N"), rl.Adhesion("50 mJ/m^2")]},
         "stick .* and are sheared",

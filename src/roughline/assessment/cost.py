@@ -112,9 +112,7 @@ def _seconds_of_flow(case: Case, variants: Sequence[Variant]) -> float:
     taken = [
         each.share * math.prod(each.shape) ** _POWER_OF_FLOW
         for each in variants
-        if each.periodic == is_repeated
-        and each.purpose not in ("punch", "slip")
-        and not each.rubs
+        if each.periodic == is_repeated and each.purpose not in ("punch", "slip") and not each.rubs
     ]
     apertures = len(sealing.directions) * (1 if sealing.rarefied.is_even(0.0) else 2)
     return _SECONDS_OF_FLOW * case.loads.count * apertures * math.fsum(taken)

@@ -57,12 +57,12 @@ def _loop_in_closed_form(depth: Real, force: Real, ratio: float, friction: float
     """Return the loop of Jäger's closed form, by Masing's rule.
 
     Depths [m] and forces [N] are of a curve without shear, at an odd number of even forces from
-    that of the stick area to the normal force; `ratio` is E* / G*.
+    the normal force to that of the stick area; `ratio` is E* / G*.
     """
     from scipy.integrate import simpson  # here because it loads slowly
 
-    slide = friction * ratio * (depth[-1] - depth[::-1])
-    shear = friction * (force[-1] - force[::-1])
+    slide = friction * ratio * (depth[0] - depth)
+    shear = friction * (force[0] - force)
     below = float(simpson(slide, x=shear))
     return ShearLoop(float(slide[-1]), 4 * float(slide[-1] * shear[-1]) - 8 * below)
 

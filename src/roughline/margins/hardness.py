@@ -80,6 +80,10 @@ class HardnessScatter(Cause):
             ]
         return listed
 
+    def opens_shear(self, case: Case) -> bool:
+        """Whether the hardness scatters; how that moves stick and slip is not known."""
+        return case.hardness is not None and case.hardness.factor != 1
+
     def spread(self, case: Case, curves: Curves, variant: str) -> Spread | None:
         """None: it bounds what others leave open."""
         return None

@@ -112,9 +112,9 @@ def _without_shear(case: Case, path: ShearPath, curves: Curves) -> LoadCase | No
 
 
 def _plain_forces(path: ShearPath, force: float) -> list[float]:
-    """Forces of Jäger's stick areas, from that at the largest shear force on, evenly. [N]"""
+    """Forces of Jäger's stick areas, on unloading to that at the largest shear force. [N]"""
     least = force - path.amplitude / path.friction
-    return np.linspace(least, force, path.per_cycle + 1).tolist()  # an odd number, for Simpson
+    return np.linspace(force, least, path.per_cycle + 1).tolist()  # an odd number, for Simpson
 
 
 def _force(case: Case, curves: Curves) -> float | None:

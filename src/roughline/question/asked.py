@@ -152,7 +152,7 @@ class Shear:
         assert self.force is not None
         return self.force
 
-    def refuse_beside(self, others: Iterable[Asked], *, yields: bool) -> None:
+    def refuse_beside(self, others: Iterable[Asked]) -> None:
         """Refuse what is not known of bodies that are sheared, and a shear that is none."""
         shear, cycles = called("rl.Shear"), called("cycles")
         if self.force is None:
@@ -177,14 +177,6 @@ class Shear:
                 None,
                 "shear",
                 "adhesion",
-            )
-        if yields:
-            raise InputError(
-                f"bodies that yield and are sheared ({shear}) are not solved: take them as elastic "
-                f"({called('elastic', True)}), or leave {shear} out",
-                None,
-                "shear",
-                "elastic",
             )
 
     def refuse_beyond(self, force: float, pressing: float, friction: float) -> None:

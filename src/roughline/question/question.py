@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeVar
 
@@ -24,6 +25,7 @@ from roughline.errors.public import public
 from roughline.errors.words import called
 from roughline.facts.fact import Fact
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.friction.law import Friction
 from roughline.question.arguments import (
     bodies,
@@ -215,7 +217,7 @@ class Question:
         refuse_unless_one_modulus(self.E_star, self.materials)
         coated = self.coated if self.shear is None else []
         self._asked(Friction, lambda asked: refuse_uneven_friction(asked, coated))
-        self._asked(Shear, lambda asked: asked.refuse_beside(self.ask, yields=self._yields))
+        self._asked(Shear, lambda asked: asked.refuse_beside(self.ask))
         self._asked(Shear, lambda _: self.loading.refuse_unless_one_load())
         self._asked(Adhesion, lambda asked: asked.refuse_beside(self.ask, yields=self._yields))
         if self.is_of_several:
@@ -314,9 +316,16 @@ class Question:
 
     @property
     def sheared_half_space(self) -> HalfSpace | None:
-        """What both bodies are sheared as; None without materials."""
-        along = self.repeated_along
-        return None if self.pair is None else self.pair.sheared_half_space(periodic=along)
+        """What both bodies are sheared as; None without materials.
+
+        Bodies that yield are sheared as if pressure moved them along each other nowhere.
+        """
+        if self.pair is None:
+            return None
+        half_space = self.pair.sheared_half_space(periodic=self.repeated_along)
+        if self._yields and isinstance(half_space, Homogeneous):
+            return replace(half_space, beta=0.0)
+        return half_space
 
     @property
     def modulus(self) -> float:
@@ -399,6 +408,14 @@ class Question:
         scale = self.loading.scale(area)
         shear.refuse_beyond(self.shear_on(area) * scale, pressing * scale, friction)
         refuse_unknown_shear(self.sheared_half_space)
+        if self._yields and self.sheared_half_space.is_coupled:
+            raise InputError(
+                "coated bodies that yield and are sheared are not solved: take them as elastic "
+                f"({called('elastic', True)}), or leave {called('rl.Shear')} out",
+                None,
+                "shear",
+                "elastic",
+            )
 
     def _refuse_line(self, line: Line) -> None:
         """Refuse what belongs to a surface."""
