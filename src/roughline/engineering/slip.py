@@ -86,7 +86,7 @@ class ShearCycles:
     """The same followed otherwise, by the causes that leave it open; None if that is not known."""
 
     times: float = 1.0  # as far as it is from another, of which it tells, that this may be off
-    slips_alike: bool = False  # whether all that follows from slip is as far as the micro-slip
+    by_micro_slip: bool = False  # whether all that follows from slip is as far as the micro-slip
 
     @property
     def is_bounded(self) -> bool:

@@ -33,7 +33,7 @@ class ShearedBody:
     times: float = 1.0
     """As far as it is from the path as asked, that this may be off."""
 
-    slips_alike: bool = False  # whether all that follows from slip is as far as the micro-slip
+    by_micro_slip: bool = False  # whether all that follows from slip is as far as the micro-slip
 
     @classmethod
     def of(cls, case: Case) -> ShearedBody | None:
@@ -131,4 +131,4 @@ def _cycles(sheared: ShearedBody, curve: SurfaceCurve | None) -> ShearCycles | N
         return None
     path = sheared.path
     of_path = curve, path.friction, path.pressing - 1, path.per_cycle, path.cycles
-    return ShearCycles(*of_path, times=sheared.times, slips_alike=sheared.slips_alike)
+    return ShearCycles(*of_path, times=sheared.times, by_micro_slip=sheared.by_micro_slip)

@@ -31,7 +31,7 @@ class StepsOfShear(Cause):
 
     def sheared(self, case: Case, asked: ShearedBody) -> ShearedBody | None:
         """The same way in half as many loads."""
-        return replace(asked, path=asked.path.in_half_as_many, times=_TIMES, slips_alike=True)
+        return replace(asked, path=asked.path.in_half_as_many, times=_TIMES, by_micro_slip=True)
 
     def spread(self, case: Case, curves: Curves, variant: str) -> None:
         """None: the order of normal loads does not matter."""
