@@ -31,9 +31,9 @@ class ShearedBody:
     body: Surface
     path: ShearPath
     times: float = 1.0
-    """As far as it is from the path as asked, that this may be off."""
+    """The path as asked may be off by so many times its distance from this one."""
 
-    by_micro_slip: bool = False  # whether all that follows from slip is as far as the micro-slip
+    by_micro_slip: bool = False  # and what follows from slip at least by that of the micro-slip
 
     @classmethod
     def of(cls, case: Case) -> ShearedBody | None:

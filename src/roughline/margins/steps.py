@@ -11,7 +11,7 @@ from roughline.margins.sheared import ShearedBody, shear_cycles
 from roughline.margins.variant import Curves
 from roughline.question.case import Case
 
-_TIMES = 4.0  # as far as half as many loads are away that far more are, and somewhat more
+_TIMES = 4.0  # of how far half as many loads are away: many more are within it
 _TOLD_FROM = 0.02  # change of the displacement or of the energy, from which on it is told
 
 
