@@ -62,11 +62,17 @@ def followed(question, times):
 
 CASES = [
     (hurst, poisson, mu, share, periodic, times)
-    for times in (2, 16)
-    for hurst, poisson, mu, share in (
-        *((0.8, 0.3, 0.3, 0.7), (0.3, 0.3, 0.3, 0.95), (0.8, 0.3, 0.1, 0.7)),
-        *((0.3, 0.3, 1.0, 0.3), (0.8, 0.0, 0.525, 0.7)),
+    for times, bodies in (
+        (
+            2,
+            (
+                *((0.8, 0.3, 0.3, 0.7), (0.3, 0.3, 0.3, 0.95), (0.8, 0.3, 0.1, 0.7)),
+                *((0.3, 0.3, 1.0, 0.3), (0.8, 0.0, 0.525, 0.7)),
+            ),
+        ),
+        (16, ((0.8, 0.3, 0.3, 0.7), (0.3, 0.3, 1.0, 0.3))),
     )
+    for hurst, poisson, mu, share in bodies
     for periodic in (False, True)
 ]
 

@@ -104,7 +104,7 @@ def margins_by_cause(
         own = answered(left_open.by(""), "")
         open_alone = {key for key in answers if _is_open(own.get(key))}
         for each in causes:
-            if each.is_bound:
+            if each.is_bound or (each.is_of_shear and sheared is None):
                 continue
             by_cause, text = left_open.by(each.name), (each.name, each.title, each.remedy)
             moved = alone = answered(by_cause, each.name)
@@ -152,7 +152,7 @@ def ends_from_many(
     larger, curve, pair = result.larger, result.curve_as_asked, result.question.pair
     if larger is None or pair is None or not isinstance(curve, SurfaceCurve):
         return {}
-    own = [each.name for each in causes if not each.is_bound and not each.is_of_larger]
+    own = [each.name for each in causes.independent if not each.is_of_larger]
     larger = larger.from_many(further, own if with_grid else [])
     intervals = result.intervals_as_asked if with_grid else None
     if result.question.joint is not None:  # the map is pressed as a part of the larger one

@@ -56,32 +56,7 @@ def announce_cost(case: Case, variants: Sequence[Variant], announce: Announce | 
             )
     if announce is None or not (large or case.loads.count >= _ANNOUNCED_LOADS):
         return
-    keeps_fields = ("as asked",) if case.question.sealing is None else ("as asked", "interface")
-    fields, sheared = [0] if case.question.fields else False, case.question.sheared_half_space
-    coupled = sheared is not None and sheared.is_coupled
-
-    def estimated(each: Variant) -> Estimate:
-        told = estimate(
-            each.shape,
-            n_loads=case.loads.count,
-            periodic=each.periodic,
-            fields=fields if each.purpose in keeps_fields else False,
-            yielding=yielding,
-            area_fraction=share,
-        )
-        if not each.rubs:
-            return told
-        rubbing = estimate(  # with the fields of both ends of its last cycle
-            each.shape,
-            n_loads=2,
-            periodic=each.periodic,
-            fields=True,
-            area_fraction=share,
-            friction="coupled" if coupled else True,
-        )
-        return Estimate(rubbing.memory, told.seconds)
-
-    costs = [(each, estimated(each)) for each in variants]
+    costs = [(each, _estimated(case, each, share)) for each in variants]
     memory = _most_memory(case, body, max(cost.memory for _, cost in costs))
 
     def seconds(purpose: str) -> float:
@@ -101,6 +76,31 @@ def announce_cost(case: Case, variants: Sequence[Variant], announce: Announce | 
         if of_cause := seconds(cause.name):
             text += f", {duration(of_cause)} {cause.takes}"
     announce(f"{body.shape[0]} x {body.shape[1]} points, {case.loads.count} loads: {text}")
+
+
+def _estimated(case: Case, variant: Variant, share: float | None) -> Estimate:
+    """Return what a variant costs if all of it is pressed, with so much in contact."""
+    keeps_fields = ("as asked",) if case.question.sealing is None else ("as asked", "interface")
+    told = estimate(
+        variant.shape,
+        n_loads=case.loads.count,
+        periodic=variant.periodic,
+        fields=[0] if case.question.fields and variant.purpose in keeps_fields else False,
+        yielding=case.hardness is not None,
+        area_fraction=share,
+    )
+    half_space = case.question.sheared_half_space if variant.rubs else None
+    if half_space is None:
+        return told
+    rubbing = estimate(
+        variant.shape,
+        n_loads=2,  # whose fields are kept, of both ends of its last cycle
+        periodic=variant.periodic,
+        fields=True,
+        area_fraction=share,
+        friction="coupled" if half_space.is_coupled else True,
+    )
+    return Estimate(rubbing.memory, told.seconds)
 
 
 def _seconds_of_flow(case: Case, variants: Sequence[Variant]) -> float:

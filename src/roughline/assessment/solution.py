@@ -36,14 +36,15 @@ class LeftOpen:
     @classmethod
     def of(cls, case: Case, curves: Curves) -> LeftOpen:
         """Ask all causes."""
-        independent = [each for each in causes if not each.is_bound]
         repeated = larger_name(case, AS_ASKED)
         of_map = {
             each.name: each.spread(case, curves, AS_ASKED)
-            for each in independent
+            for each in causes.independent
             if not each.is_of_larger
         }
-        return cls(of_map, {each.name: each.spread(case, curves, repeated) for each in independent})
+        return cls(
+            of_map, {each.name: each.spread(case, curves, repeated) for each in causes.independent}
+        )
 
     def by(self, name: str) -> LeftOpen:
         """What one cause leaves open alone."""

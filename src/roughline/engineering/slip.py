@@ -85,8 +85,8 @@ class ShearCycles:
     others: Mapping[str, ShearCycles | None] = field(default_factory=dict)
     """The same followed otherwise, by the causes that leave it open; None if that is not known."""
 
-    times: float = 1.0  # as far as it is from another, of which it tells, that this may be off
-    slips_alike: bool = False  # whether all that follows from slip is as far as the micro-slip
+    times: float = 1.0  # of its distance from another of which it tells, that this may be off
+    by_micro_slip: bool = False  # and what follows from slip at least by that of the micro-slip
 
     @property
     def is_bounded(self) -> bool:

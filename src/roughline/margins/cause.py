@@ -16,7 +16,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import allowed_choice, refuse, shown
 from roughline.errors.public import public
 from roughline.facts.fact import Fact
-from roughline.margins.sheared import Sheared
+from roughline.margins.sheared import ShearedBody
 from roughline.margins.spread import Spread, Values
 from roughline.margins.variant import Curves, Variant
 from roughline.question.case import Case
@@ -47,6 +47,8 @@ class Cause(ABC):
         the map alone.
     is_bound : bool
         Whether it bounds what other causes leave open, instead of being independent of them.
+    is_of_shear : bool
+        Whether it leaves open what a shear force does, and nothing else.
     """
 
     name: ClassVar[str]
@@ -55,6 +57,7 @@ class Cause(ABC):
     takes: ClassVar[str] = ""
     is_of_larger: ClassVar[bool] = False
     is_bound: ClassVar[bool] = False
+    is_of_shear: ClassVar[bool] = False
 
     def presses(self, case: Case, pressed: Variant) -> Sequence[Variant]:
         """What is pressed to learn it, beside a variant: the body as asked, or repeated."""
@@ -68,7 +71,7 @@ class Cause(ABC):
         """Whether it leaves open what a shear force does to the body as asked; default: no."""
         return False
 
-    def sheared(self, case: Case, asked: Sheared) -> Sheared | None:
+    def sheared(self, case: Case, asked: ShearedBody) -> ShearedBody | None:
         """What is sheared to learn that, beside the body and its path; None if it is not known."""
         return None
 
@@ -126,7 +129,7 @@ class OtherBodies(Cause):
         """Whether it leaves open what a shear force does: as much as its first body shows."""
         return True
 
-    def sheared(self, case: Case, asked: Sheared) -> Sheared | None:
+    def sheared(self, case: Case, asked: ShearedBody) -> ShearedBody | None:
         """The first of the bodies, along the same path."""
         return replace(asked, body=self.body(case, 0), times=self.times)
 
@@ -184,9 +187,14 @@ class Causes:
         """
         return self._by_name[allowed_choice("name", name, self._by_name)]
 
-    def sheared_otherwise(self, case: Case) -> Mapping[str, Sheared | None]:
+    @property
+    def independent(self) -> list[Cause]:
+        """Those that leave values of a curve open, each by itself."""
+        return [each for each in self if not (each.is_bound or each.is_of_shear)]
+
+    def sheared_otherwise(self, case: Case) -> Mapping[str, ShearedBody | None]:
         """What each shears that leaves open what a shear force does; None where it is not known."""
-        if (asked := Sheared.of(case)) is None:
+        if (asked := ShearedBody.of(case)) is None:
             return {}
         return {each.name: each.sheared(case, asked) for each in self if each.opens_shear(case)}
 

@@ -11,7 +11,7 @@ from roughline.contact.fields import Fields
 from roughline.contact.measures import Measure
 from roughline.facts.fact import Fact
 from roughline.margins.cause import OtherBodies
-from roughline.margins.sheared import Sheared
+from roughline.margins.sheared import ShearedBody
 from roughline.margins.variant import AS_ASKED, Curves, Variant
 from roughline.question.case import Case
 from roughline.question.source import pressed_body
@@ -47,7 +47,7 @@ class FilledPoints(OtherBodies):
         """Whether points were missing."""
         return bool(case.filled)
 
-    def sheared(self, case: Case, asked: Sheared) -> Sheared | None:
+    def sheared(self, case: Case, asked: ShearedBody) -> ShearedBody | None:
         """None: what stands on filled points, and slips there, is not known."""
         return None
 

@@ -16,7 +16,7 @@ from roughline.contact.quantities import RESOLVED_FROM
 from roughline.engineering.intervals import Ends, Intervals
 from roughline.facts.fact import Fact
 from roughline.margins.cause import Cause
-from roughline.margins.sheared import Sheared
+from roughline.margins.sheared import ShearedBody
 from roughline.margins.spread import Spread, Values, intervals_within
 from roughline.margins.variant import Curves, Variant
 from roughline.question.assumptions import broken
@@ -65,7 +65,7 @@ class FinerGrid(Cause):
         """Always: spots of few points do not slip bit by bit."""
         return True
 
-    def sheared(self, case: Case, asked: Sheared) -> Sheared | None:
+    def sheared(self, case: Case, asked: ShearedBody) -> ShearedBody | None:
         """The path on half as many points a side, which need not resolve a layer.
 
         Where other causes leave the same open and are not known, it would not tell how far.

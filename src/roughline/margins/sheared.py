@@ -25,31 +25,31 @@ _PLAIN = "without shear"  # under the forces of Jäger's stick areas
 
 
 @dataclass(frozen=True, eq=False)
-class Sheared:
+class ShearedBody:
     """A body, and the path along which it is sheared."""
 
     body: Surface
     path: ShearPath
     times: float = 1.0
-    """As far as it is from the path as asked, that this may be off."""
+    """The path as asked may be off by so many times its distance from this one."""
 
-    slips_alike: bool = False  # whether all that follows from slip is as far as the micro-slip
+    by_micro_slip: bool = False  # and what follows from slip at least by that of the micro-slip
 
     @classmethod
-    def of(cls, case: Case) -> Sheared | None:
+    def of(cls, case: Case) -> ShearedBody | None:
         """The body and the path of a case; None where no shear is asked for."""
         path = ShearPath.of(case)
         return cls(case.body, path) if path is not None and isinstance(case.body, Surface) else None
 
 
 def shear_presses(
-    case: Case, as_asked: Variant, otherwise: Mapping[str, Sheared | None]
+    case: Case, as_asked: Variant, otherwise: Mapping[str, ShearedBody | None]
 ) -> list[Variant]:
     """What is pressed where a shear is asked for: its path, as causes follow it, and without it.
 
     `otherwise` is what each cause that leaves its answers open follows; None where it is not known.
     """
-    asked = Sheared.of(case)
+    asked = ShearedBody.of(case)
     if asked is None:
         return []
     listed = [_variant(case, as_asked, SHEARED, "shear", asked)]
@@ -64,10 +64,10 @@ def shear_presses(
 
 
 def shear_cycles(
-    case: Case, curves: Curves, otherwise: Mapping[str, Sheared | None]
+    case: Case, curves: Curves, otherwise: Mapping[str, ShearedBody | None]
 ) -> ShearCycles | None:
     """What the path of a case gave; None without one, and where not all of it was solved."""
-    asked, pair = Sheared.of(case), case.pair
+    asked, pair = ShearedBody.of(case), case.pair
     found = None if asked is None else _cycles(asked, curves.complete(SHEARED))
     if found is None or pair is None:
         return None
@@ -83,7 +83,9 @@ def _named(cause: str) -> str:
     return f"{SHEARED}, {cause}"
 
 
-def _variant(case: Case, as_asked: Variant, name: str, purpose: str, sheared: Sheared) -> Variant:
+def _variant(
+    case: Case, as_asked: Variant, name: str, purpose: str, sheared: ShearedBody
+) -> Variant:
     """A body that is sheared, as one entry of the list of presses."""
     half_space = case.question.sheared_half_space
     coupled = half_space is not None and half_space.is_coupled
@@ -99,7 +101,7 @@ def _variant(case: Case, as_asked: Variant, name: str, purpose: str, sheared: Sh
     )
 
 
-def _along(case: Case, sheared: Sheared, curves: Curves) -> LoadCase | None:
+def _along(case: Case, sheared: ShearedBody, curves: Curves) -> LoadCase | None:
     """A body along its path; None where the load was not solved."""
     force = _force(case, curves)
     return None if force is None else sheared.path.on(sheared.body, case, force)
@@ -123,10 +125,10 @@ def _force(case: Case, curves: Curves) -> float | None:
     return float(curve.force[largest]) if curve.converged[largest] else None
 
 
-def _cycles(sheared: Sheared, curve: SurfaceCurve | None) -> ShearCycles | None:
+def _cycles(sheared: ShearedBody, curve: SurfaceCurve | None) -> ShearCycles | None:
     """What a path gave; None where not all of it was solved."""
     if not isinstance(curve, SlidingCurve) or not curve.converged.all():
         return None
     path = sheared.path
     of_path = curve, path.friction, path.pressing - 1, path.per_cycle, path.cycles
-    return ShearCycles(*of_path, times=sheared.times, slips_alike=sheared.slips_alike)
+    return ShearCycles(*of_path, times=sheared.times, by_micro_slip=sheared.by_micro_slip)

@@ -7,12 +7,11 @@ from dataclasses import replace
 
 from roughline.facts.fact import Fact
 from roughline.margins.cause import Cause
-from roughline.margins.sheared import Sheared, shear_cycles
-from roughline.margins.spread import Spread, Values
+from roughline.margins.sheared import ShearedBody, shear_cycles
 from roughline.margins.variant import Curves
 from roughline.question.case import Case
 
-_TIMES = 4.0  # as far as half as many loads are away that far more are, and somewhat more
+_TIMES = 4.0  # of how far half as many loads are away: many more are within it
 _TOLD_FROM = 0.02  # change of the displacement or of the energy, from which on it is told
 
 
@@ -23,27 +22,23 @@ class StepsOfShear(Cause):
     title = "how finely the way is cut"
     remedy = "a path of more loads (rl.press)"
     takes = "for the shear force in half as many loads"
+    is_of_shear = True
 
     def opens_shear(self, case: Case) -> bool:
         """Whether pressure displaces the bodies along each other."""
         body = case.question.sheared_half_space
         return body is not None and body.is_coupled
 
-    def sheared(self, case: Case, asked: Sheared) -> Sheared | None:
+    def sheared(self, case: Case, asked: ShearedBody) -> ShearedBody | None:
         """The same way in half as many loads."""
-        return replace(asked, path=asked.path.in_half_as_many, times=_TIMES, slips_alike=True)
+        return replace(asked, path=asked.path.in_half_as_many, times=_TIMES, by_micro_slip=True)
 
-    def spread(self, case: Case, curves: Curves, variant: str) -> Spread | None:
-        """Nothing is left open of a body under normal loads, whose order does not matter."""
-        curve = curves.by_name.get(variant)
-        if curve is None:
-            return None
-        values = Values.of(curve)
-        return Spread.between(values, [values])
+    def spread(self, case: Case, curves: Curves, variant: str) -> None:
+        """None: the order of normal loads does not matter."""
 
     def facts(self, case: Case, curves: Curves) -> Sequence[Fact]:
         """By how much half as many loads change the slide and the loop, where that is much."""
-        if (asked := Sheared.of(case)) is None or not self.opens_shear(case):
+        if (asked := ShearedBody.of(case)) is None or not self.opens_shear(case):
             return ()
         found = shear_cycles(case, curves, {self.name: self.sheared(case, asked)})
         other = None if found is None else found.others[self.name]

@@ -93,7 +93,7 @@ def _rows_of_shear(
         if sheared.is_bounded and one > 0:
             others = sheared.others.values()
             logarithms = [_distance(found, sheared, each, of_slip=of_slip) for each in others]
-            if by_points and any(each is not None and each.slips_alike for each in others):
+            if by_points and any(each is not None and each.by_micro_slip for each in others):
                 logarithms.append(sheared.one_point_of_stick)
             factor = math.exp(math.hypot(*logarithms))
             rows += [one / factor, one * factor]
@@ -110,7 +110,7 @@ def _distance(
     if other is None:
         return math.nan
     compared = [found]
-    if of_slip and other.slips_alike:
+    if of_slip and other.by_micro_slip:
         compared.append(lambda each: each.micro_slip)
     return other.times * max(abs(math.log(_ratio(each(other), each(sheared)))) for each in compared)
 
