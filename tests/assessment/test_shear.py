@@ -184,7 +184,7 @@ def test_a_layer_of_what_lies_below_it_changes_nothing():
 def test_bodies_that_yield_slip_as_their_unloading_says():
     """Jäger's theorem is exact without displacement across the shear, from where it was pressed."""
     pair = ("E=3 GPa nu=0", "E=3 GPa nu=0")
-    result = rl.assess(asked(rough(), pair, hardness="5 MPa"))
+    result = rl.assess(asked(rough(), pair, hardness="5 MPa", grid_error=True))
     sheared = result.sought.sheared
     assert 0.1 < result.curve.plastic_fraction[0] < 0.9
     closed = sheared.closed_form
@@ -205,11 +205,24 @@ def test_of_two_materials_that_yield_the_coupling_is_left_out_and_that_is_said()
     assert "yielding_bodies_uncoupled" not in {each.kind for each in elastic.facts}
 
 
-def test_what_the_scatter_of_a_hardness_does_to_slip_is_not_known():
-    result = rl.assess(asked(rough(), "steel,steel", grid_error=True))
-    assert result.answers["micro_slip"].ends is None
-    (told,) = (each for each in result.facts if each.kind == "shear_left_open")
-    assert "the scatter of the hardness" in told.numbers["causes"]
+def test_intervals_hold_bodies_as_soft_and_as_hard_as_they_may_be():
+    body, copper = rough(), rl.material("copper")
+    given = {"loads": "20 N", "shear": "4 N", "grid_error": True}
+    result = rl.assess(asked(body, "copper,copper", **given))
+    softest, hardest = (
+        rl.assess(asked(body, "copper,copper", hardness=copper.hardness * times, **given))
+        for times in (1 / copper.hardness_factor, copper.hardness_factor)
+    )
+    for key in ("shear_displacement", "cycle_energy", "stiffness_before_slip"):
+        values = result.answers[key].values
+        ratios = [each.answers[key].values / values for each in (softest, hardest)]
+        least, most = result.hardness_scatter[key]
+        assert least == pytest.approx(min([*ratios, 1.0]), rel=1e-6)
+        assert most == pytest.approx(max([*ratios, 1.0]), rel=1e-6)
+        assert most > 1.001 * least
+        low, high = result.answers[key].ends
+        assert low < values * least
+        assert high > values * most
 
 
 REFUSED = {

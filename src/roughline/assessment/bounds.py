@@ -15,6 +15,7 @@ from roughline.engineering.intervals import Ends, Intervals
 from roughline.engineering.rule import Answer, Limits, within
 from roughline.margins.causes import HARDNESS
 from roughline.margins.hardness import ELASTIC, OfHardness
+from roughline.margins.sheared import cycles_as
 from roughline.margins.variant import Curves, periodic
 from roughline.question.case import Case
 
@@ -66,6 +67,8 @@ def widen_by_scatter(
 def _answer_at_hardness(case: Case, curves: Curves, way: OfHardness) -> _AtHardness:
     """Answer the same of a body of another hardness, or elastic; without intervals."""
     solution = combine_curves(case, curves, None, way.variant)
+    sought = replace(solution.sought, sheared=cycles_as(case, curves, way.variant))
+    solution = replace(solution, sought=sought)
     answers, _ = work_out_answers(case, solution, body=way.body, hardness=way.hardness)
     return _AtHardness(solution.curve, answers)
 

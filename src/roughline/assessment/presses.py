@@ -11,7 +11,7 @@ from functools import partial
 
 import numpy as np
 
-from roughline.margins.causes import causes
+from roughline.margins.causes import HARDNESS, causes
 from roughline.margins.filling import force_on
 from roughline.margins.larger_surface import flat_punch, punch_name
 from roughline.margins.sheared import shear_presses
@@ -37,7 +37,8 @@ def list_presses(case: Case) -> list[Variant]:
     if case.question.friction is not None and case.hardness is not None:
         share, needed = CURVE_LOADS / case.loads.count, partial(_unloaded, case)
         listed.append(replace(listed[0], name=UNLOADED, purpose="slip", needed=needed, share=share))
-    return listed + shear_presses(case, listed[0], causes.sheared_otherwise(case))
+    listed += shear_presses(case, listed[0], causes.sheared_otherwise(case))
+    return [*listed, *HARDNESS.sheared_presses(case, listed[0])]
 
 
 def _as_asked(case: Case) -> Variant:

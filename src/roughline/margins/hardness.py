@@ -6,7 +6,7 @@ is not independent of what else leaves them open.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -23,6 +23,7 @@ from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import yields
 from roughline.facts.fact import Fact
 from roughline.margins.cause import Cause
+from roughline.margins.sheared import SHEARED, sheared_as
 from roughline.margins.spread import Spread
 from roughline.margins.variant import AS_ASKED, Curves, Variant, larger_name, repeated
 from roughline.question.case import Case
@@ -65,12 +66,8 @@ class HardnessScatter(Cause):
             return ()
         if pressed.name != AS_ASKED:
             return ()
-        ways: list[tuple[str, Body]] = [(ELASTIC, body)]
-        if hardness.factor != 1:
-            ways += [(AS_HARD, case.scatter_body)] if case.scatter_body is not body else []
-            ways += [(SOFTEST, case.scatter_body), (HARDEST, case.scatter_body)]
         listed = []
-        for name, other in ways:
+        for name, other in [(ELASTIC, body), *self._scattered(case)]:
             needed = partial(_as_hard, case, name, other)
             share = other.heights.size / body.heights.size
             variant = Variant(name, self.name, needed, body.shape, case.loads.periodic, share)
@@ -80,9 +77,22 @@ class HardnessScatter(Cause):
             ]
         return listed
 
-    def opens_shear(self, case: Case) -> bool:
-        """Whether the hardness scatters; how that moves stick and slip is not known."""
-        return case.hardness is not None and case.hardness.factor != 1
+    def sheared_presses(self, case: Case, as_asked: Variant) -> Sequence[Variant]:
+        """The body as soft and as hard as it may be, along the path of a shear force."""
+        listed = [
+            sheared_as(case, as_asked, way, body, partial(_sheared_as_hard, case, way, body))
+            for way, body in self._scattered(case)
+            if isinstance(body, Surface)
+        ]
+        return [each for each in listed if each is not None]
+
+    def _scattered(self, case: Case) -> list[tuple[str, Body]]:
+        """Ways of a hardness that scatters, and the bodies on which that is judged."""
+        if case.hardness is None or case.pair is None or case.hardness.factor == 1:
+            return []
+        other = case.scatter_body
+        nominal = [(AS_HARD, other)] if other is not case.body else []
+        return [*nominal, (SOFTEST, other), (HARDEST, other)]
 
     def spread(self, case: Case, curves: Curves, variant: str) -> Spread | None:
         """None: it bounds what others leave open."""
@@ -213,6 +223,25 @@ def _as_hard(case: Case, way: str, body: Body, curves: Curves) -> LoadCase | Cur
     measures = () if case.is_repeated_for_interface else case.measures
     of_hardness = case.loads.with_hardness(hardness, loads, curve)
     return replace(of_hardness, body=body, measures=measures)
+
+
+def _sheared_as_hard(
+    case: Case,
+    way: str,
+    body: Body,
+    along: Callable[[Curves], LoadCase | None],
+    curves: Curves,
+) -> LoadCase | Curve | None:
+    """Shear the body with another hardness, if it bears the largest load.
+
+    If all of its curve is known, so is what the shear force does.
+    """
+    found, loads, largest = _as_hard(case, way, body, curves), along(curves), case.loads.largest
+    if isinstance(found, Curve):
+        return curves.get(SHEARED) if found.converged[largest] else None
+    if found is None or loads is None or not (found.among is None or found.among[largest]):
+        return None
+    return replace(loads, hardness=found.hardness)
 
 
 def _is_known(case: Case, curves: Curves, hardness: float) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -12,7 +12,7 @@ from roughline.contact.curve import SurfaceCurve
 from roughline.contact.estimates import TIMES_WITH_FRICTION
 from roughline.contact.sliding import SlidingCurve
 from roughline.engineering.slip import ShearCycles
-from roughline.margins.variant import AS_ASKED, Curves, Variant
+from roughline.margins.variant import AS_ASKED, Curves, Pressable, Variant
 from roughline.question.case import Case
 from roughline.question.loads import LoadCase
 from roughline.question.shear_path import ShearPath
@@ -61,6 +61,31 @@ def shear_presses(
         needed = partial(_without_shear, case, asked.path)
         listed.append(replace(as_asked, name=_PLAIN, purpose="slip", needed=needed, share=plain))
     return listed
+
+
+def sheared_as(
+    case: Case,
+    as_asked: Variant,
+    way: str,
+    body: Surface,
+    needed: Callable[[Callable[[Curves], LoadCase | None], Curves], Pressable],
+) -> Variant | None:
+    """The path on a body of another hardness, if a shear is asked for.
+
+    `needed` is told what is pressed of the body as hard as asked.
+    """
+    if (asked := ShearedBody.of(case)) is None:
+        return None
+    other = replace(asked, body=body)
+    along = partial(_along, case, other)
+    variant = _variant(case, as_asked, _named(way), "hardness", other)
+    return replace(variant, needed=partial(needed, along))
+
+
+def cycles_as(case: Case, curves: Curves, way: str) -> ShearCycles | None:
+    """What the path gave of a body of another hardness; None where not all of it was solved."""
+    asked = ShearedBody.of(case)
+    return None if asked is None else _cycles(asked, curves.complete(_named(way)))
 
 
 def shear_cycles(
