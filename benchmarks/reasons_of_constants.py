@@ -109,7 +109,7 @@ CHOSEN = {
         _LEAST_SPRINGS=f"{_FINE} 1 %, and no value by more",
         _CUTS=_COUNTED,
     ),
-    **_of("margins/steps", _TIMES=_FINER_WAYS, _TOLD_FROM=_TOLD),
+    **_of("margins/steps", _TIMES=_FINER_WAYS, _WARNED_CHANGE=_TOLD),
     **_of("assessment/facts", _WIDE_RATIO=_TOLD),
     **_of("assessment/part_facts", _ADVISED_MAPS=_TOLD),
     **_of("margins/place", _RTOL=f"{_FINE} 0.1 %"),
@@ -270,7 +270,7 @@ GUARDS = {
     **_of(
         "margins/steps",
         _TIMES="coupled bodies that are sheared",
-        _TOLD_FROM="coupled bodies whose slip hangs on how the way is cut",
+        _WARNED_CHANGE="coupled bodies whose slip hangs on how the way is cut",
     ),
     **_of(
         "question/case",

@@ -81,7 +81,7 @@ def announce_cost(case: Case, variants: Sequence[Variant], announce: Announce | 
 def _estimated(case: Case, variant: Variant, share: float | None) -> Estimate:
     """Return what a variant costs if all of it is pressed, with so much in contact."""
     keeps_fields = ("as asked",) if case.question.sealing is None else ("as asked", "interface")
-    told = estimate(
+    pressing = estimate(
         variant.shape,
         n_loads=case.loads.count,
         periodic=variant.periodic,
@@ -91,7 +91,7 @@ def _estimated(case: Case, variant: Variant, share: float | None) -> Estimate:
     )
     half_space = case.question.sheared_half_space if variant.rubs else None
     if half_space is None:
-        return told
+        return pressing
     rubbing = estimate(
         variant.shape,
         n_loads=2,  # whose fields are kept, of both ends of its last cycle
@@ -100,7 +100,7 @@ def _estimated(case: Case, variant: Variant, share: float | None) -> Estimate:
         area_fraction=share,
         friction="coupled" if half_space.is_coupled else True,
     )
-    return Estimate(rubbing.memory, told.seconds)
+    return Estimate(rubbing.memory, pressing.seconds)
 
 
 def _seconds_of_flow(case: Case, variants: Sequence[Variant]) -> float:

@@ -143,8 +143,8 @@ def _timed(ensemble: Ensemble) -> float:
         if ensemble.model == "full":
             shape = (ensemble.n, ensemble.n)
             periodic = ensemble.pressed_into.periodic
-            told = estimates.estimate(shape, len(ensemble.force_bars), periodic=periodic)
-            return _times_longer(ensemble) * told.seconds
+            one = estimates.estimate(shape, len(ensemble.force_bars), periodic=periodic)
+            return _times_longer(ensemble) * one.seconds
         small = replace(ensemble, n=min(ensemble.n, 2**18), roll_off_ratio=1.0, cutoff_ratio=None)
         evaluate_case(small, small.fractal_dimensions[0], 0)  # compiles
         start = time.perf_counter()

@@ -153,8 +153,9 @@ def press(
         :class:`~roughline.Homogeneous` says, and k holds what the half-space gives up to there.
     friction : Friction, optional
         What points in contact bear of shear. Loads are then a path: each state follows from the one
-        before, and the curve is a :class:`~roughline.SlidingCurve`. The half-space needs a
-        Poisson's ratio, as in ``half_space=rl.Homogeneous(1.0, poisson=0.3)``.
+        before, and the curve is a :class:`~roughline.SlidingCurve`; of a line and a profile, whose
+        springs bear shear along one line, a :class:`~roughline.SlidingLineCurve`. The half-space
+        needs a Poisson's ratio, as in ``half_space=rl.Homogeneous(1.0, poisson=0.3)``.
     shear_forces, slides : array_like, shape (loads, 2) or (loads,), optional
         With friction, the total shear force on the half-space [force] or how far the rough body has
         slid [length] at each load, along x and y; numbers are along x. Default: no shear force.

@@ -24,7 +24,7 @@ from roughline.halfspace.search.problem import Contact, Load, Method, Outcome, P
 # rough contacts with beta of 0.29 and 0.5, mu of 0.1 to 1, free and repeated; in N even loads it
 # falls as this power of 1 / N.
 _GROWTH_ERROR, _GROWTH_POWER = 0.035, 1.6
-_GROWTH_TOLD_FROM = 3e-4  # from which on it is told
+_WARNED_GROWTH = 3e-4  # from which on it is told
 
 # Of a load that turns by a right angle 4 parts are off by 1.7 % of the slide, 16 by 0.25 %.
 _LARGEST_TURN, _FINE_TURN = math.radians(25), math.radians(90 / 16)
@@ -123,7 +123,7 @@ def _facts_on_growth(curve: SurfaceCurve, scaled: ScaledSurface) -> Iterator[Fac
     q = np.array([math.pi / max(scaled.spacing)])
     beta = float((scaled.half_space.coupling_spectrum(q) / scaled.half_space.spectrum(q))[0])
     error = _GROWTH_ERROR * beta**2 * step**_GROWTH_POWER
-    if error > _GROWTH_TOLD_FROM:
+    if error > _WARNED_GROWTH:
         yield Fact("grown_in_few_loads", beta=abs(beta), error=error)
 
 

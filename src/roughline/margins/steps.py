@@ -12,7 +12,7 @@ from roughline.margins.variant import Curves
 from roughline.question.case import Case
 
 _TIMES = 4.0  # of how far half as many loads are away: many more are within it
-_TOLD_FROM = 0.02  # change of the displacement or of the energy, from which on it is told
+_WARNED_CHANGE = 0.02  # change of the displacement or of the energy, from which on it is told
 
 
 class StepsOfShear(Cause):
@@ -48,4 +48,4 @@ class StepsOfShear(Cause):
             "displacement": abs(other.displacement / found.displacement - 1),
             "energy": abs(other.energy / found.energy - 1) if found.energy else 0.0,
         }
-        return [Fact("steps_matter", **changes)] if max(changes.values()) > _TOLD_FROM else ()
+        return [Fact("steps_matter", **changes)] if max(changes.values()) > _WARNED_CHANGE else ()

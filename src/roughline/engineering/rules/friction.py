@@ -72,11 +72,11 @@ def _is_sheared(pressed: Pressed) -> bool:
     return pressed.sought.sheared is not None
 
 
-_Found = Callable[[ShearCycles], float | None]
+_OneValue = Callable[[ShearCycles], float | None]
 
 
 def _rows_of_shear(
-    found: _Found, *, extensive: bool = False, of_slip: bool = True, by_points: bool = False
+    found: _OneValue, *, extensive: bool = False, of_slip: bool = True, by_points: bool = False
 ) -> Callable[[Pressed], Real | None]:
     """Values of what a shear force does, in rows, of the one load under which it does it.
 
@@ -104,7 +104,7 @@ def _rows_of_shear(
 
 
 def _distance(
-    found: _Found, sheared: ShearCycles, other: ShearCycles | None, *, of_slip: bool
+    found: _OneValue, sheared: ShearCycles, other: ShearCycles | None, *, of_slip: bool
 ) -> float:
     """Logarithm of the factor by which the same followed otherwise leaves a value open."""
     if other is None:
