@@ -214,7 +214,7 @@ class SlidePath:
             if aim <= rtol and error <= _ALTERNATION_SHARE * rtol:
                 break
         else:
-            return _unknown(contact, Outcome.MAX_ITERATIONS)
+            return replace(_unknown(contact, Outcome.STALLED), residual=error)
         answer = response(contact, window, None, self._method)
         residuals = contact.residuals
         contact = replace(
