@@ -105,6 +105,22 @@ def test_a_load_that_slides_is_told_by_its_number():
     assert [rl.Status(each).name for each in lost.status] == ["SLIDES", "UNKNOWN_SURFACE"]
 
 
+@pytest.mark.parametrize("beta", [0.5, -0.5])
+def test_bodies_that_move_each_other_too_much_are_certified_or_refused_with_the_cause(beta):
+    """Friction times |beta| is 2.5."""
+    body = rl.Homogeneous(1.0, poisson=0.0, beta=beta)
+    asked = {"half_space": body, "friction": rl.Friction(5.0), "forces": [0.01, 0.01, 0.01]}
+    asked["shear_forces"] = [0.0, 0.015, 0.045]
+    curve = press(throw=False, **asked)
+    lost = np.flatnonzero(curve.status)
+    assert lost.size
+    assert curve.status[lost[0]] == rl.Status.STALLED
+    assert curve.residual[lost[0]] > 1e-6
+    assert (curve.residual[: lost[0]] <= 1e-6).all()
+    with pytest.raises(rl.ConvergenceError, match="times Dundurs' .beta. is above 1/2: give less"):
+        press(**asked)
+
+
 def test_the_curve_has_what_was_asked_and_files_have_it(tmp_path):
     shears = [(0, 0), (1e-3, 5e-4)]
     curve = press(forces=[0.01, 0.01], shear_forces=shears, fields=True)

@@ -14,7 +14,7 @@ NOT_OFFERED = "https://github.com/roughline/roughline/tree/main/docs/not_offered
 
 _NOT_DONE = {
     "viscoelasticity of contacts that recede": "loss-modulus",
-    "steady sliding, and friction on free layers": "sliding friction-on-free-layers",
+    "steady sliding": "sliding",
     "lubrication": "lubrication lubricant oil ehl viscosity film-thickness",
     "wear": "wear abrasion archard running-in",
     "heat": "temperature heat heating thermal-expansion flash-temperature",

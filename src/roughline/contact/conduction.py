@@ -74,7 +74,7 @@ class LayeredConductor(HalfSpace):
         # how far currents go along good layers beside bad ones
         contrast = max(self.resistivity) / min(self.resistivity)
         longest = sum(self.thickness) * math.sqrt(contrast)
-        layered_kernel(self, self.thickness[0], longest, first, spacing, rows)
+        layered_kernel(self, (self.thickness[0], longest), first, spacing, rows)
 
     def in_units(self, pressure: float, length: float) -> LayeredConductor:
         """Return the same in other units."""

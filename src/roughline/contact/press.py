@@ -391,6 +391,13 @@ def _failure_message(curve: Curve) -> str:
         advice = "raise max_iterations (solver=rl.Solver(max_iterations=...)) or rtol"
     if statuses == {Status.PULLED_OFF}:
         advice = "give smaller pulls, or depths"
+    coupled = isinstance(curve, SlidingCurve) and curve.half_space.is_coupled
+    if Status.STALLED in statuses and coupled:
+        advice = (
+            "pressures and shear, which move each other, did not settle, as need not be where "
+            "friction times Dundurs' |beta| is above 1/2: give less friction, or more loads on the "
+            "way"
+        )
     if statuses == {Status.SLIDES}:
         advice = "give smaller shear forces, or slides"
     return "; ".join(parts) + f": {advice}, or take throw=False to keep the rest"

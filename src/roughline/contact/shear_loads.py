@@ -144,9 +144,8 @@ def refuse_unknown_shear(half_space: HalfSpace) -> None:
     """Refuse a half-space of which the friction is not solved."""
     half_space.shear_spectrum(np.ones(1))  # which refuses one that does not know it
     if not all(half_space.repeats):  # which is refused if it does not know its kernel
-        half_space.shear_kernel(
-            0, (1.0, 1.0), (np.empty((1, 1)), np.empty((1, 1)), np.empty((1, 1)))
-        )
+        nothing = np.empty((0, 0))
+        half_space.shear_kernel(0, (1.0, 1.0), (nothing, nothing, nothing))
 
 
 def checked_vectors(name: str, given: Any) -> Real:

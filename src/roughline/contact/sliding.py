@@ -78,7 +78,9 @@ class SlidingCurve(CurveWithFriction, SurfaceCurve):
     Which points stick follows from the rates at the end of a load: one that stops slipping within
     it has the shear of one that slips on. Where pressure displaces along the surface, a contact
     that grows depends on how finely the loads are cut, by some 0.3 % of depth or force in one load
-    from first touch, and 0.03 % in four: press with half as many to see by how much.
+    from first touch, and 0.03 % in four: press with half as many to see by how much. So does a load
+    that turns away from the shear before it: a turn by a right angle at six tenths of what friction
+    bears has a slide that is off by 0.7 % in one load, 0.3 % in eight and 0.1 % in sixteen.
 
     Examples
     --------

@@ -15,6 +15,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import between, positive, several
 from roughline.errors.public import public_making
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic, given_periodic
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
 
 _THINNEST_TOP_LAYER = 0.5  # thickness of the top layer over the side of a cell, at least
 _EVEN_PRESSURE_FROM = 1e3  # side over thickness, from which on pressure is even for layers
@@ -172,15 +173,43 @@ class Layered(HalfSpace):
         """Whether pressure displaces along the surface, as it does beside a rigid body."""
         return True
 
+    @property
+    def _top(self) -> Homogeneous:
+        """The half-space of the top layer's material, beside a rigid body."""
+        return Homogeneous.of(float(self._layers[0, 0]), float(self._layers[1, 0]))
+
+    @property
+    def _lengths(self) -> tuple[float, float]:
+        """Thickness of the top layer, and how far kernels change. [length]"""
+        young, _, thickness = self._layers
+        moduli = [each for each in (*young, self.base_young) if each < math.inf]
+        longest = thickness.sum() * (max(moduli) / min(moduli)) ** (1 / 3)  # of plates on springs
+        return float(thickness[0]), float(longest)
+
     def kernel(self, first: int, spacing: tuple[float, float], rows: Real) -> None:
         """Fill rows of the table of displacements under unit pressure on one cell."""
         # here because compiled loops load slowly
         from roughline.halfspace.elasticity.layered_kernel import layered_kernel
 
-        young, _, thickness = self._layers
-        moduli = [each for each in (*young, self.base_young) if each < math.inf]
-        longest = thickness.sum() * (max(moduli) / min(moduli)) ** (1 / 3)  # of plates on springs
-        layered_kernel(self, float(thickness[0]), float(longest), first, spacing, rows)
+        layered_kernel(self, self._lengths, first, spacing, rows)
+
+    def shear_kernel(
+        self, first: int, spacing: tuple[float, float], rows: tuple[Real, Real, Real]
+    ) -> None:
+        """Fill rows of the tables of displacements under unit shear on one cell."""
+        # here because compiled loops load slowly
+        from roughline.halfspace.elasticity.layered_kernel import layered_shear_kernel
+
+        layered_shear_kernel(self, self._top, self._lengths, first, spacing, rows)
+
+    def coupling_kernel(
+        self, first: int, spacing: tuple[float, float], rows: tuple[Real, Real]
+    ) -> None:
+        """Fill rows of the tables of displacements along the surface under pressure on one cell."""
+        # here because compiled loops load slowly
+        from roughline.halfspace.elasticity.layered_kernel import layered_coupling_kernel
+
+        layered_coupling_kernel(self, self._top, self._lengths, first, spacing, rows)
 
     def refuse(self, spacing: tuple[float, float]) -> None:
         """Refuse grids of cells more than twice as large as the top layer is thick."""

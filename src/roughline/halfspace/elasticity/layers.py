@@ -22,7 +22,7 @@ from roughline.computing.compiled import compiled
 
 
 def compliance(q: Real, layers: Real, base_young: float, base_poisson: float) -> Real:
-    """Displacement over pressure of waves, real or imaginary ones. [length / pressure]
+    """Displacement over pressure of waves, real or complex ones. [length / pressure]
 
     Rows of the layers are Young's moduli, Poisson's ratios and thicknesses, from the top on.
     """
@@ -45,13 +45,13 @@ def shear_compliance(
 ) -> tuple[Real, Real, Real]:
     """Displacements along the surface: by shear along and across waves, and by pressure.
 
-    The last is what draws the surface together. At q = 0 shear displaces evenly, without bound on
-    an elastic base, and pressure does not. [length / pressure]
+    Waves may be complex. The last is what draws the surface together. At q = 0 shear displaces
+    evenly, without bound on an elastic base, and pressure does not. [length / pressure]
     """
     young, poisson, thickness = layers
     base_soft, soft = (1 + base_poisson) / base_young, (1 + poisson) / young
-    waves = np.array(q, dtype=np.float64).reshape(-1)
-    others, across = np.zeros((2, waves.size)), np.zeros(waves.size)
+    waves = np.array(q, dtype=np.result_type(q, np.float64)).reshape(-1)
+    others, across = np.zeros((2, waves.size), waves.dtype), np.zeros_like(waves)
     _climb_twisted(waves, soft, thickness, base_soft, across)
     some = waves == 0
     _climb(waves, others, soft, poisson, thickness, base_soft, base_poisson)
@@ -62,7 +62,7 @@ def shear_compliance(
 
 @compiled
 def _climb_twisted(
-    waves: Real, soft: Real, thickness: Real, base_soft: float, across: Real
+    waves: Floats, soft: Real, thickness: Real, base_soft: float, across: Floats
 ) -> None:
     """Carry the compliance to shear across a wave, in antiplane strain, up through the layers.
 

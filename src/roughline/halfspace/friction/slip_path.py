@@ -209,12 +209,14 @@ class SlidePath:
             if found.outcome is not Outcome.CONVERGED:
                 return found
             start, state = contact.contact_set, (contact.nodes, found.shear)
-            change = self._lift(*state, everywhere) - lift
-            lift, error = lift + change, float(np.abs(change).max()) / contact.length_scale
+            change = self._lift(*state, everywhere)
+            change -= lift
+            lift += change
+            error = float(max(change.max(), -change.min())) / contact.length_scale
             if aim <= rtol and error <= _ALTERNATION_SHARE * rtol:
                 break
         else:
-            return _unknown(contact, Outcome.MAX_ITERATIONS)
+            return replace(_unknown(contact, Outcome.STALLED), residual=error)
         answer = response(contact, window, None, self._method)
         residuals = contact.residuals
         contact = replace(
@@ -242,7 +244,8 @@ class SlidePath:
         """Return how a state displaces all of the grid along the surface."""
         nodes, exact = self._problem.grid.nodes(last.contact.nodes), self._bodies.exact
         moved = exact.by_pressure(last.contact.pressure, nodes, everywhere)
-        return moved + exact.displacement(last.shear, nodes, everywhere)
+        moved += exact.displacement(last.shear, nodes, everywhere)
+        return moved
 
     def _lift(self, nodes: InGrid, shear: Real, everywhere: GridNodes) -> Real:
         """Return how shear displaces all of the grid into the body."""

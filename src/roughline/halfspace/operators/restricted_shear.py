@@ -82,15 +82,14 @@ class RestrictedShear:
         The other operator is that of pressures on the same grid.
         """
         split = _Split(operator, ratios)
-        xx, yy = exact.mean + exact.part, exact.mean - exact.part
         mean, part, skew = (each[split.modes] for each in (exact.mean, exact.part, exact.skew))
         common, twice, once = split.shares
         mean, part = mean * common, part * twice
         # the spectrum of the near part goes on to q = 0, whatever the operator does with the mean
         mean[0, 0] -= split.at_rest * split.limit
         parts = [
-            split.made(xx, mean + part, _EVEN_PARTS, common),
-            split.made(yy, mean - part, _EVEN_PARTS, common),
+            split.made(exact.mean + exact.part, mean + part, _EVEN_PARTS, common),
+            split.made(exact.mean - exact.part, mean - part, _EVEN_PARTS, common),
             split.made(exact.skew, skew * twice, _SKEW_PART, twice),
         ]
         if exact.towards is not None:

@@ -105,7 +105,7 @@ class ShearConvolution:
         """
         (nx, _), (mx, my) = self.shape, self.periods
         kind = np.complex128 if precision == "float64" else np.complex64
-        modes = self.workspace.array("shear rows", (nx, my + 8), kind)
+        modes = self.workspace.array("rows", (nx, my + 8), kind)  # those of pressures, too
         result = np.empty((targets.indices.size, 2))
 
         def transform_rows(first: int, last: int) -> None:
@@ -151,9 +151,10 @@ def shear_on_grid(
     periods = grid_periods(shape, half_space.repeats)
     xx, yy, xy, towards = made(half_space, shape, spacing, periods)
     diagonal = (at_origin(xx, periods) + at_origin(yy, periods)) / 2
-    mean, part = (xx + yy) / 2, (xx - yy) / 2
+    for x, y in zip(xx, yy, strict=True):  # by rows, as whole tables are large
+        x[:], y[:] = (x + y) / 2, (x - y) / 2
     workspace = workspace or Workspace()
-    return ShearConvolution(shape, periods, mean, part, xy, towards, diagonal, workspace)
+    return ShearConvolution(shape, periods, xx, yy, xy, towards, diagonal, workspace)
 
 
 _Quarters = tuple[Real, Real, Real, tuple[Real, Real] | None]
