@@ -497,7 +497,7 @@ class _Operators:
         half_space, self._factor = grid.half_space.even_shear
         inverse = inverse_on(half_space, grid.shape, grid.spacing)
         self._precondition = preconditioner(inverse, nodes)
-        self._inverse, self._normal = grid.inverse, grid.inverse.operator
+        self._normal = grid.inverse.operator
         self.convolutions = 0
         self.diagonal = bodies.exact.diagonal
 
@@ -514,12 +514,8 @@ class _Operators:
 
     def roughly_displaced(self, pressure: Real, shear: Real) -> tuple[Real, Real]:
         """Return the same, roughly."""
-        rough, here = self._restricted, (self.nodes, self.nodes)
-        normal = self._inverse.restricted.on(self.nodes)
-        assert rough is not None
-        assert normal is not None
-        into = normal.displacement(pressure, *here) + rough.into_body(shear, *here)
-        return into, rough.displacement(shear, *here) + rough.by_pressure(pressure, *here)
+        assert self._restricted is not None
+        return self._restricted.displaced(pressure, shear, self.nodes, self.nodes)
 
     @property
     def rough(self) -> Linear | None:
