@@ -265,7 +265,8 @@ def _add_near_and_far(
             sums[:, :length] = 0
             _sum_shear(grids, place, near, sums[0, :length], sums[1, :length])
             if count == 3:
-                _sum_coupling(grids, place, near, sums, length)
+                _sum_by_pressure(grids, place, near, sums[0, :length], sums[1, :length])
+                _sum_into_body(grids, place, near, sums[2, :length])
             for i in range(begin, end):
                 for to in range(count):
                     result[i, to] = sums[to, columns[i] - columns[begin]]
@@ -324,22 +325,46 @@ def _sum_shear(
 
 
 @compiled_sums
-def _sum_coupling(
+def _sum_by_pressure(
+    grids: tuple[Floats, ...],
+    place: tuple[int, int],
+    near: tuple[tuple[Floats, ...], Integers],
+    first: Floats,
+    second: Floats,
+) -> None:
+    """Add the displacements along the surface by near pressure, opposite at opposite distances."""
+    (parts, reach), last = near, len(grids) - 1
+    along_x, along_y, z = parts[last + 1], parts[last + 2], grids[last].reshape(-1)
+    width, across = grids[last].shape[1], (along_x.shape[1] - 4) // 2
+    start = place[0] * width + place[1]
+    for di in range(along_x.shape[0]):
+        begin, off = across - reach[di], start - di * width + reach[di] - 3
+        on = start + di * width - reach[di]
+        one, two = along_x[di, begin:], along_y[di, begin:]
+        for g in range(0, 2 * reach[di] + 1, 4):
+            a0, a1, a2, a3 = one[g], one[g + 1], one[g + 2], one[g + 3]
+            b0, b1, b2, b3 = two[g], two[g + 1], two[g + 2], two[g + 3]
+            p, r = z[on + g :], z[off - g :]
+            for j in range(first.size):
+                p0, p1 = p[j] - r[j + 3], p[j + 1] - r[j + 2]
+                p2, p3 = p[j + 2] - r[j + 1], p[j + 3] - r[j]
+                first[j] += (a0 * p0 + a1 * p1) + (a2 * p2 + a3 * p3)
+                second[j] += (b0 * p0 + b1 * p1) + (b2 * p2 + b3 * p3)
+
+
+@compiled_sums
+def _sum_into_body(
     grids: tuple[Floats, ...],
     place: tuple[int, int],
     near: tuple[tuple[Floats, ...], Integers],
     sums: Floats,
-    length: int,
 ) -> None:
-    """Add what near pressure displaces over a run, and what near shear displaces into the body.
-
-    Between both, values at opposite distances displace oppositely.
-    """
+    """Add the displacements into the body by near pressure and, turned about, by near shear."""
     (parts, reach), last = near, len(grids) - 1
     along_x, along_y, into = parts[last + 1], parts[last + 2], parts[last + 3]
     x, y, z = grids[0].reshape(-1), grids[1].reshape(-1), grids[last].reshape(-1)
-    width, ux, uy, uz = grids[0].shape[1], sums[0, :length], sums[1, :length], sums[2, :length]
-    across, start = (into.shape[1] - 4) // 2, place[0] * width + place[1]
+    width, across = grids[0].shape[1], (into.shape[1] - 4) // 2
+    start = place[0] * width + place[1]
     for di in range(into.shape[0]):
         begin, off = across - reach[di], start - di * width + reach[di] - 1
         on = start + di * width - reach[di]
@@ -348,12 +373,9 @@ def _sum_coupling(
             a0, a1, b0, b1, c0, c1 = one[g], one[g + 1], two[g], two[g + 1], own[g], own[g + 1]
             p, q, r = x[on + g :], y[on + g :], z[on + g :]
             s, t, w = x[off - g :], y[off - g :], z[off - g :]
-            for j in range(length):
-                d0, d1 = r[j] - w[j + 1], r[j + 1] - w[j]
-                ux[j] += a0 * d0 + a1 * d1
-                uy[j] += b0 * d0 + b1 * d1
-                uz[j] += (
+            for j in range(sums.size):
+                sums[j] += (
                     (c0 * (r[j] + w[j + 1]) + c1 * (r[j + 1] + w[j]))
-                    - (a0 * (p[j] - s[j + 1]) + a1 * (p[j + 1] - s[j]))
-                    - (b0 * (q[j] - t[j + 1]) + b1 * (q[j + 1] - t[j]))
+                    + (a0 * (s[j + 1] - p[j]) + a1 * (s[j] - p[j + 1]))
+                    + (b0 * (t[j + 1] - q[j]) + b1 * (t[j] - q[j + 1]))
                 )
