@@ -381,7 +381,7 @@ class _SlideStep:
         contact, last, tangents = self._contact, self._last, self._tangents
         if tangents is not None and tangents.led is not None:
             assert last is not None
-            x, y = tangents.led[0 if last.force @ way >= 0 else 1]
+            x, y = tangents.led[0 if last.force @ way >= 0 else 1].shear
             led: Real = self._start + way[0] * x + way[1] * y
             return led
         if contact.problem.grid.half_space.is_coupled:
