@@ -381,8 +381,10 @@ class _SlideStep:
         contact, last, tangents = self._contact, self._last, self._tangents
         if tangents is not None and tangents.led is not None:
             assert last is not None
-            x, y = tangents.led[0 if last.force @ way >= 0 else 1].shear
-            led: Real = self._start + way[0] * x + way[1] * y
+            unit = tangents.led[0 if last.force @ way >= 0 else 1]
+            led: Real = self._start + unit.along(way, unit.shear)
+            if self._known is not None and unit.displacement is not None:
+                self._known = led, self._known[1] + unit.along(way, unit.displacement)
             return led
         if contact.problem.grid.half_space.is_coupled:
             return self._start

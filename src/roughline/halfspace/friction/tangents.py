@@ -44,6 +44,11 @@ class UnitSlides:
     shear: tuple[Real, Real]
     displacement: tuple[Real, Real] | None = None  # by the shear, exactly
 
+    @staticmethod
+    def along(way: Real, unit: tuple[Real, Real]) -> Real:
+        """Return what a slide along a way brings, from that of unit slides."""
+        return np.asarray(way[0] * unit[0] + way[1] * unit[1], np.float64)
+
 
 @dataclass(frozen=True, eq=False)
 class ShearTangents:
@@ -136,9 +141,9 @@ class _ShearRates:
         if self._going.stands:
             return None
         form = self.form(slips)
-        assert self.known is not None
-        assert self.known.displacement is not None
-        (x, y), (by_x, by_y) = self.known.shear, self.known.displacement
+        unit = self.known
+        assert unit is not None
+        assert unit.displacement is not None
         rate = np.where(slips, self._bears_more, 0.0)[:, np.newaxis] * self._rim.outward
         moved = np.zeros_like(rate)
         if rate.any():
@@ -151,10 +156,9 @@ class _ShearRates:
         if self._going.by_shear:
             missing = slide / self._area - rate.sum(axis=0)
             slide = np.linalg.lstsq(form, missing, rcond=None)[0]
-        rate = rate + slide[0] * x + slide[1] * y
-        moved = moved + slide[0] * by_x + slide[1] * by_y
-        slip = self._rim.along(slide - moved)
-        return Rates(slip, self._rim.along(rate) - self._bears_more)
+        rate = rate + unit.along(slide, unit.shear)
+        moved = moved + unit.along(slide, unit.displacement)
+        return Rates(self._rim.along(slide - moved), self._rim.along(rate) - self._bears_more)
 
 
 def _as_pressed(contact: Contact) -> UnitSlides | None:
