@@ -185,11 +185,10 @@ class SlidePath:
         """
         last, problem = self._last, self._problem
         everywhere = problem.grid.nodes(InGrid(np.arange(problem.separation.size)))
-        start, state, convolutions, lift = None, None, 0, np.zeros(problem.separation.shape)
+        start, found, convolutions, lift = None, None, 0, np.zeros(problem.separation.shape)
         if last is not None and last.contact.nodes.size:
             start = last.contact.contact_set
-            state = last.contact.nodes, last.shear
-            lift = self._lift(*state, everywhere)
+            lift = self._lift(last.contact.nodes, last.shear, everywhere)
         before = None if last is None else self._moved_by(last, everywhere)
         rtol, error = self._method.rtol, 1.0
         for _ in range(_MOST_ALTERNATIONS):
@@ -203,13 +202,13 @@ class SlidePath:
                 return _unknown(contact, contact.outcome)
             if not contact.nodes.size:
                 return _apart(replace(contact, problem=problem), shear, last)
-            step = _SlideStep(self._bodies, contact, last, (state, before), aim)
+            step = _SlideStep(self._bodies, contact, last, (found, before), aim)
             found = step.under(shear)
             convolutions += step.convolutions
             if found.outcome is not Outcome.CONVERGED:
                 return found
-            start, state = contact.contact_set, (contact.nodes, found.shear)
-            change = self._lift(*state, everywhere) - lift
+            start = contact.contact_set
+            change = self._lift(contact.nodes, found.shear, everywhere) - lift
             lift, error = lift + change, float(np.abs(change).max()) / contact.length_scale
             if aim <= rtol and error <= _ALTERNATION_SHARE * rtol:
                 break
@@ -271,12 +270,13 @@ class _SlideStep:
         bodies: _Bodies,
         contact: Contact,
         last: Slid | None,
-        start: tuple[tuple[InGrid, Real] | None, Real | None] = (None, None),
+        again: tuple[Slid | None, Real | None] = (None, None),
         rtol: float | None = None,
     ) -> None:
         """Take the bodies, the contact, and the last state.
 
-        The start is some shear on nodes, and how the last state displaces all of the grid.
+        If it is solved again, there is the state under nearly these pressures, and how the last
+        state displaces all of the grid.
         """
         grid, exact = bodies.problem.grid, bodies.exact
         self._exact, self._contact, self._last = exact, contact, last
@@ -291,9 +291,9 @@ class _SlideStep:
         self._pushed = exact.by_pressure(contact.pressure, nodes, nodes)
         # shear on the nodes, and the displacement by it
         self._known: tuple[Real, Real] | None = None
-        self._moved_before, self._start = self._before(start[1])
-        if start[0] is not None:
-            self._start = _on(contact.nodes, *start[0])
+        self._nearly, (self._moved_before, self._start) = again[0], self._before(again[1])
+        if self._nearly is not None:
+            self._start = self._on_these_discs(self._nearly)
         gap, own = self._gaps_before(), bodies.diagonal * contact.pressure
         self._springs = gap / own * exact.diagonal
         self._since_contact = own / (gap + own)
@@ -325,6 +325,16 @@ class _SlideStep:
             self._known = shear, moved
         return moved - self._pushed, shear
 
+    def _on_these_discs(self, nearly: Slid) -> Real:
+        """Return the shear under nearly these pressures; nodes that slip go on to bear all."""
+        nodes, others = self._contact.nodes, nearly.contact.nodes
+        borne = self._friction.bound(nearly.contact.pressure, others)
+        rim = Rim.of(nearly.shear, borne, np.zeros_like(borne, dtype=bool), borne)
+        outward = _on(nodes, others, np.where(rim.full[:, np.newaxis], rim.outward, 0.0))
+        slips = outward.any(axis=1)[:, np.newaxis]
+        shear = _on(nodes, others, nearly.shear)
+        return np.where(slips, self._bound[:, np.newaxis] * outward, shear)
+
     def _gaps_before(self) -> Real:
         """Return the gaps that nodes had at the last load; zero where they were in contact."""
         last, nodes = self._last, self._contact.nodes
@@ -350,6 +360,8 @@ class _SlideStep:
         if not np.hypot(*force) < _SLIDES_FROM * limit:
             return replace(_unknown(self._contact, Outcome.SLIDES), limit=limit)
         total, way = force / self._area, self._guessed_way(force)
+        if self._nearly is not None:
+            way = self._nearly.slide - self._slide_before
         found = self._solved(self._moved_before, total, (self._guess(way), way), tolerance)
         return self._state(found, found.level, limit, load)
 
