@@ -522,9 +522,8 @@ class _Operators:
 
     def displaced(self, pressure: Real, shear: Real) -> tuple[Real, Real]:
         """Return the displacements into the body and along the surface by pressure and shear."""
-        exact, normal, here = self._exact, self._normal, (self.nodes, self.nodes)
-        into = normal.displacement(pressure, *here) + exact.into_body(shear, *here)
-        return into, exact.displacement(shear, *here) + exact.by_pressure(pressure, *here)
+        here = self._normal.spectrum, self.nodes, self.nodes
+        return self._exact.displaced(pressure, shear, *here)
 
     def roughly_displaced(self, pressure: Real, shear: Real) -> tuple[Real, Real]:
         """Return the same, roughly."""
