@@ -98,10 +98,9 @@ def shear_tangents(
     else:
         back = grid.cell_area * rates.form(nobody)
     stuck = rates.known
-    if last is not None and last.led is not None:
-        slipped = ~last.sticks
-        if (slipped != rim.full).sum() < rim.full.sum():
-            rates.start_from(slipped, last.led[0], last.on / grid.cell_area)
+    if last and last.led and (last.sticks == rim.full).sum() < rim.full.sum():
+        # fewer nodes differ from those that slipped on, though directions may have turned
+        rates.begin_from(last.led[0])
     slips = slip_on(rim, rates.of) if rim.may_slip.any() else nobody
     on = grid.cell_area * rates.form(slips) if slips.any() else back
     led = None if stuck is None else (rates.known or stuck, stuck)
@@ -126,6 +125,10 @@ class _ShearRates:
     def start_from(self, slips: Mask, unit: UnitSlides, form: Real) -> None:
         """Take the shear by unit slides, and its totals, where some nodes slip."""
         self._slips, self.known, self._form = slips, unit, form
+
+    def begin_from(self, unit: UnitSlides) -> None:
+        """Take the shear by unit slides where other nodes slip, as a guess."""
+        self._slips, self.known = None, unit
 
     def form(self, slips: Mask) -> Real:
         """Return the totals of the shear by unit slides."""
