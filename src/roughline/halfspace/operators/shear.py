@@ -122,7 +122,7 @@ class ShearConvolution:
         """
         (nx, _), (mx, my) = self.shape, self.periods
         kind = np.complex128 if precision == "float64" else np.complex64
-        names = ("shear rows", "pressure rows")[: len(fields)]
+        names = ("shear rows", "rows")[: len(fields)]
         rows = [self.workspace.array(name, (nx, my + 8), kind) for name in names]
         results = [np.empty((targets.indices.size, 2)) for _ in fields]
 
