@@ -330,10 +330,9 @@ class _SlideStep:
         nodes, others = self._contact.nodes, nearly.contact.nodes
         borne = self._friction.bound(nearly.contact.pressure, others)
         rim = Rim.of(nearly.shear, borne, np.zeros_like(borne, dtype=bool), borne)
-        outward = _on(nodes, others, np.where(rim.full[:, np.newaxis], rim.outward, 0.0))
-        slips = outward.any(axis=1)[:, np.newaxis]
-        shear = _on(nodes, others, nearly.shear)
-        return np.where(slips, self._bound[:, np.newaxis] * outward, shear)
+        slips = _on(nodes, others, rim.full.astype(np.float64)) > 0
+        on_rim = self._bound[:, np.newaxis] * _on(nodes, others, rim.outward)
+        return np.where(slips[:, np.newaxis], on_rim, _on(nodes, others, nearly.shear))
 
     def _gaps_before(self) -> Real:
         """Return the gaps that nodes had at the last load; zero where they were in contact."""

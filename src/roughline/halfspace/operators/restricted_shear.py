@@ -116,8 +116,8 @@ class RestrictedShear:
     @cached_property
     def _by_both(self) -> Any:
         xx, yy, xy, x, y, into = self.far
-        x, y = 1j * x, 1j * y
-        return np.array([[xx, xy, x], [xy, yy, y], [-x, -y, into]], dtype=np.complex64)
+        rows = [[xx, xy, 1j * x], [xy, yy, 1j * y], [-1j * x, -1j * y, into]]
+        return np.array(rows, dtype=np.complex64)
 
     def _moved(
         self,
