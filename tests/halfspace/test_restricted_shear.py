@@ -22,7 +22,7 @@ def _on_small_grids(monkeypatch):
 
 
 def both(shape, spacing, ratios, periodic):
-    """Return the exact operator, the restricted one, and the nodes of a contact."""
+    """Return both exact operators, the restricted one, and the nodes of a contact."""
     half_space = rl.Homogeneous(1.0, periodic, poisson=0.5, beta=0.4)
     pressed = on_grid(half_space, shape, spacing)
     exact = shear_on_grid(half_space, shape, spacing)
@@ -32,7 +32,7 @@ def both(shape, spacing, ratios, periodic):
     heights = np.asarray(rl.SelfAffine(hurst=0.5, rms_height=1.0).surface(n, 3).heights)
     heights = heights[: shape[0], : shape[1]]
     nodes = np.flatnonzero(heights > np.quantile(heights, 0.92))
-    return exact, rough, GridNodes.of(nodes, shape)
+    return pressed, exact, rough, GridNodes.of(nodes, shape)
 
 
 @pytest.mark.parametrize(
@@ -47,24 +47,31 @@ def both(shape, spacing, ratios, periodic):
 )
 def test_shear_displaces_as_exactly_to_a_hundredth(shape, spacing, ratios, periodic):
     """That is of any shear, and of pressure on coupled bodies to a twentieth."""
-    exact, rough, nodes = both(shape, spacing, ratios, periodic)
+    pressed, exact, rough, nodes = both(shape, spacing, ratios, periodic)
     rng = np.random.default_rng(1)
     shear = rng.standard_normal((nodes.indices.size, 2))
     for each in (shear, np.ones_like(shear) * (1.0, 0.5)):
         expected = exact.displacement(each, nodes, nodes)
         found = rough.displacement(each, nodes, nodes)
         assert np.abs(found - expected).max() <= 0.01 * np.abs(expected).max()
-    expected = exact.by_pressure(shear[:, 0].copy(), nodes, nodes)
-    found = rough.by_pressure(shear[:, 0].copy(), nodes, nodes)
-    assert np.abs(found - expected).max() <= 0.06 * np.abs(expected).max()
+    pressure, nothing = shear[:, 0].copy(), np.zeros_like(shear)
+    expected = (
+        pressed.displacement(pressure, nodes, nodes),
+        exact.by_pressure(pressure, nodes, nodes),
+    )
+    found = rough.displaced(pressure, nothing, nodes, nodes)
+    for here, there, error in zip(found, expected, (0.01, 0.06), strict=True):
+        assert np.abs(here - there).max() <= error * np.abs(there).max()
     expected = exact.into_body(shear, nodes, nodes)
-    found = rough.into_body(shear, nodes, nodes)
+    found, along = rough.displaced(nothing[:, 0], shear, nodes, nodes)
     assert np.abs(found - expected).max() <= 0.06 * np.abs(expected).max()
+    moved = rough.displacement(shear, nodes, nodes)
+    assert along == pytest.approx(moved, rel=0, abs=1e-5 * np.abs(moved).max())
 
 
 @pytest.mark.parametrize("periodic", [False, True])
 def test_work_of_one_shear_on_the_displacements_of_another_is_mutual(periodic):
-    _, rough, nodes = both((64, 64), (1.0, 1.0), (4, 4), periodic)
+    *_, rough, nodes = both((64, 64), (1.0, 1.0), (4, 4), periodic)
     rng = np.random.default_rng(2)
     one, other = rng.standard_normal((2, nodes.indices.size, 2))
     pressure = np.ascontiguousarray(other[:, 0])
@@ -72,8 +79,9 @@ def test_work_of_one_shear_on_the_displacements_of_another_is_mutual(periodic):
     second = np.vdot(other, rough.displacement(one, nodes, nodes))
     size = np.sqrt(np.vdot(one, one) * np.vdot(other, other))
     assert abs(first - second) <= 1e-5 * size
-    along = np.vdot(one, rough.by_pressure(pressure, nodes, nodes))
-    into = np.vdot(pressure, rough.into_body(one, nodes, nodes))
+    nothing = np.zeros_like(one)
+    along = np.vdot(one, rough.displaced(pressure, nothing, nodes, nodes)[1])
+    into = np.vdot(pressure, rough.displaced(nothing[:, 0], one, nodes, nodes)[0])
     assert abs(along - into) <= 1e-5 * size
 
 

@@ -109,8 +109,8 @@ class DiscSearch:
     ) -> Sheared:
         """Return the shear on the discs, from a shear and a level.
 
-        It is within the tolerance [length], or that part of what the start leaves, and its total
-        within a share of the sum of all bounds; or it is the best that was found.
+        It is within the tolerance [length], and its total within a share of the sum of all bounds,
+        or within that part of what the start leaves of each; or it is the best that was found.
         """
         shear, level = discs.within(start[0]), start[1]
         slips = np.hypot(shear[:, 0], shear[:, 1]) >= discs.bound * (1 - 1e-12)
@@ -122,6 +122,7 @@ class DiscSearch:
             now = replace(now, rounds=rounds, products=products)
             if not rounds:
                 tolerance = max(tolerance, gain * now.residual)
+                enough = max(enough, gain * now.missing)
             if best is None or max(now.residual / tolerance, now.missing / enough) < max(
                 best.residual / tolerance, best.missing / enough
             ):

@@ -185,11 +185,10 @@ class SlidePath:
         """
         last, problem = self._last, self._problem
         everywhere = problem.grid.nodes(InGrid(np.arange(problem.separation.size)))
-        start, state, convolutions, lift = None, None, 0, np.zeros(problem.separation.shape)
+        start, found, convolutions, lift = None, None, 0, np.zeros(problem.separation.shape)
         if last is not None and last.contact.nodes.size:
             start = last.contact.contact_set
-            state = last.contact.nodes, last.shear
-            lift = self._lift(*state, everywhere)
+            lift = self._lift(last.contact.nodes, last.shear, everywhere)
         before = None if last is None else self._moved_by(last, everywhere)
         rtol, error = self._method.rtol, 1.0
         for _ in range(_MOST_ALTERNATIONS):
@@ -203,13 +202,13 @@ class SlidePath:
                 return _unknown(contact, contact.outcome)
             if not contact.nodes.size:
                 return _apart(replace(contact, problem=problem), shear, last)
-            step = _SlideStep(self._bodies, contact, last, (state, before), aim)
+            step = _SlideStep(self._bodies, contact, last, (found, before), aim)
             found = step.under(shear)
             convolutions += step.convolutions
             if found.outcome is not Outcome.CONVERGED:
                 return found
-            start, state = contact.contact_set, (contact.nodes, found.shear)
-            change = self._lift(*state, everywhere)
+            start = contact.contact_set
+            change = self._lift(contact.nodes, found.shear, everywhere)
             change -= lift
             lift += change
             error = float(max(change.max(), -change.min())) / contact.length_scale
@@ -274,12 +273,13 @@ class _SlideStep:
         bodies: _Bodies,
         contact: Contact,
         last: Slid | None,
-        start: tuple[tuple[InGrid, Real] | None, Real | None] = (None, None),
+        again: tuple[Slid | None, Real | None] = (None, None),
         rtol: float | None = None,
     ) -> None:
         """Take the bodies, the contact, and the last state.
 
-        The start is some shear on nodes, and how the last state displaces all of the grid.
+        If it is solved again, there is the state under nearly these pressures, and how the last
+        state displaces all of the grid.
         """
         grid, exact = bodies.problem.grid, bodies.exact
         self._exact, self._contact, self._last = exact, contact, last
@@ -294,9 +294,9 @@ class _SlideStep:
         self._pushed = exact.by_pressure(contact.pressure, nodes, nodes)
         # shear on the nodes, and the displacement by it
         self._known: tuple[Real, Real] | None = None
-        self._moved_before, self._start = self._before(start[1])
-        if start[0] is not None:
-            self._start = _on(contact.nodes, *start[0])
+        self._nearly, (self._moved_before, self._start) = again[0], self._before(again[1])
+        if self._nearly is not None:
+            self._start = self._on_these_discs(self._nearly)
         gap, own = self._gaps_before(), bodies.diagonal * contact.pressure + self._dented()
         self._springs = gap / own * exact.diagonal
         self._since_contact = own / (gap + own)
@@ -327,6 +327,15 @@ class _SlideStep:
         if kept == before.nodes.size and not before.problem.grid.half_space.is_coupled:
             self._known = shear, moved
         return moved - self._pushed, shear
+
+    def _on_these_discs(self, nearly: Slid) -> Real:
+        """Return the shear under nearly these pressures; nodes that slip go on to bear all."""
+        nodes, others = self._contact.nodes, nearly.contact.nodes
+        borne = self._friction.bound(nearly.contact.pressure, others)
+        rim = Rim.of(nearly.shear, borne, np.zeros_like(borne, dtype=bool), borne)
+        slips = _on(nodes, others, rim.full.astype(np.float64)) > 0
+        on_rim = self._bound[:, np.newaxis] * _on(nodes, others, rim.outward)
+        return np.where(slips[:, np.newaxis], on_rim, _on(nodes, others, nearly.shear))
 
     def _gaps_before(self) -> Real:
         """Return the gaps that nodes had at the last load; zero where they were in contact."""
@@ -362,6 +371,8 @@ class _SlideStep:
         if not np.hypot(*force) < _SLIDES_FROM * limit:
             return replace(_unknown(self._contact, Outcome.SLIDES), limit=limit)
         total, way = force / self._area, self._guessed_way(force)
+        if self._nearly is not None:
+            way = self._nearly.slide - self._slide_before
         found = self._solved(self._moved_before, total, (self._guess(way), way), tolerance)
         return self._state(found, found.level, limit, load)
 
@@ -393,8 +404,10 @@ class _SlideStep:
         contact, last, tangents = self._contact, self._last, self._tangents
         if tangents is not None and tangents.led is not None:
             assert last is not None
-            x, y = tangents.led[0 if last.force @ way >= 0 else 1]
-            led: Real = self._start + way[0] * x + way[1] * y
+            unit = tangents.led[0 if last.force @ way >= 0 else 1]
+            led: Real = self._start + unit.along(way, unit.shear)
+            if self._known is not None and unit.displacement is not None:
+                self._known = led, self._known[1] + unit.along(way, unit.displacement)
             return led
         if contact.problem.grid.half_space.is_coupled:
             return self._start
@@ -510,7 +523,7 @@ class _Operators:
         half_space, self._factor = grid.half_space.even_shear
         inverse = inverse_on(half_space, grid.shape, grid.spacing)
         self._precondition = preconditioner(inverse, nodes)
-        self._inverse, self._normal = grid.inverse, grid.inverse.operator
+        self._normal = grid.inverse.operator
         self.convolutions = 0
         self.diagonal = bodies.exact.diagonal
 
@@ -521,18 +534,13 @@ class _Operators:
 
     def displaced(self, pressure: Real, shear: Real) -> tuple[Real, Real]:
         """Return the displacements into the body and along the surface by pressure and shear."""
-        exact, normal, here = self._exact, self._normal, (self.nodes, self.nodes)
-        into = normal.displacement(pressure, *here) + exact.into_body(shear, *here)
-        return into, exact.displacement(shear, *here) + exact.by_pressure(pressure, *here)
+        here = self._normal.spectrum, self.nodes, self.nodes
+        return self._exact.displaced(pressure, shear, *here)
 
     def roughly_displaced(self, pressure: Real, shear: Real) -> tuple[Real, Real]:
         """Return the same, roughly."""
-        rough, here = self._restricted, (self.nodes, self.nodes)
-        normal = self._inverse.restricted.on(self.nodes)
-        assert rough is not None
-        assert normal is not None
-        into = normal.displacement(pressure, *here) + rough.into_body(shear, *here)
-        return into, rough.displacement(shear, *here) + rough.by_pressure(pressure, *here)
+        assert self._restricted is not None
+        return self._restricted.displaced(pressure, shear, self.nodes, self.nodes)
 
     @property
     def rough(self) -> Linear | None:

@@ -36,8 +36,18 @@ _COUPLED_SHARE = 3e-3  # of what rough operators of coupled bodies correct, and 
 _MOST_TURNS = 10  # of corrections
 _SCALE_SHARE = 0.1  # of the energy that counts, up to which they go on
 
-UnitShear = tuple[Real, Real]
-"""Shear of nodes by unit slides along x and along y, each of shape (nodes, 2)."""
+
+@dataclass(frozen=True, eq=False)
+class UnitSlides:
+    """Shear of nodes by unit slides along x and along y, each of shape (nodes, 2)."""
+
+    shear: tuple[Real, Real]
+    displacement: tuple[Real, Real] | None = None  # by the shear, exactly
+
+    @staticmethod
+    def along(way: Real, unit: tuple[Real, Real]) -> Real:
+        """Return what a slide along a way brings, from that of unit slides."""
+        return np.asarray(way[0] * unit[0] + way[1] * unit[1], np.float64)
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +58,7 @@ class ShearTangents:
     on: Real
     back: Real
     convolutions: int = 0
-    led: tuple[UnitShear, UnitShear] | None = None  # how shear follows, going on and turning back
+    led: tuple[UnitSlides, UnitSlides] | None = None  # how shear follows, on and back
 
 
 class ShearMaps(Protocol):
@@ -88,6 +98,9 @@ def shear_tangents(
     else:
         back = grid.cell_area * rates.form(nobody)
     stuck = rates.known
+    if last and last.led and (last.sticks == rim.full).sum() < rim.full.sum():
+        # fewer nodes differ from those that slipped on, though directions may have turned
+        rates.begin_from(last.led[0])
     slips = slip_on(rim, rates.of) if rim.may_slip.any() else nobody
     on = grid.cell_area * rates.form(slips) if slips.any() else back
     led = None if stuck is None else (rates.known or stuck, stuck)
@@ -103,15 +116,19 @@ class _ShearRates:
         self._maps, self._rim, self._going, self._accuracy = maps, rim, going, accuracy
         self._area, self.spent = contact.problem.grid.cell_area, 0
         self._slips: Mask | None = None  # of the nodes, for which all is known
-        self.known: UnitShear | None = _as_pressed(contact)
+        self.known: UnitSlides | None = _as_pressed(contact)
         answer = contact.response
         assert answer is not None
         tangent = answer.loading if going.normal > 0 else answer.unloading
         self._bears_more = rim.slope * tangent.pressure_per_force * going.normal
 
-    def start_from(self, slips: Mask, unit: UnitShear, form: Real) -> None:
+    def start_from(self, slips: Mask, unit: UnitSlides, form: Real) -> None:
         """Take the shear by unit slides, and its totals, where some nodes slip."""
         self._slips, self.known, self._form = slips, unit, form
+
+    def begin_from(self, unit: UnitSlides) -> None:
+        """Take the shear by unit slides where other nodes slip, as a guess."""
+        self._slips, self.known = None, unit
 
     def form(self, slips: Mask) -> Real:
         """Return the totals of the shear by unit slides."""
@@ -127,25 +144,27 @@ class _ShearRates:
         if self._going.stands:
             return None
         form = self.form(slips)
-        assert self.known is not None
-        x, y = self.known
+        unit = self.known
+        assert unit is not None
+        assert unit.displacement is not None
         rate = np.where(slips, self._bears_more, 0.0)[:, np.newaxis] * self._rim.outward
+        moved = np.zeros_like(rate)
         if rate.any():
             stuck = _Stuck(self._maps, slips, self._rim.outward)
-            moved = stuck.allowed(self._maps.exact(rate))
-            follows, *_, products = stuck.solved(-moved, None, self._accuracy)
-            rate, self.spent = rate + follows, self.spent + 2 * (1 + products)
+            moved = self._maps.exact(rate)
+            follows = stuck.solved(-stuck.allowed(moved), None, None, self._accuracy)
+            rate, moved = rate + follows.shear, moved + follows.displacement
+            self.spent += 2 * (1 + follows.products)
         slide = np.array(self._going.along)
         if self._going.by_shear:
             missing = slide / self._area - rate.sum(axis=0)
             slide = np.linalg.lstsq(form, missing, rcond=None)[0]
-        rate = rate + slide[0] * x + slide[1] * y
-        self.spent += 2
-        slip = self._rim.along(slide - self._maps.exact(rate))
-        return Rates(slip, self._rim.along(rate) - self._bears_more)
+        rate = rate + unit.along(slide, unit.shear)
+        moved = moved + unit.along(slide, unit.displacement)
+        return Rates(self._rim.along(slide - moved), self._rim.along(rate) - self._bears_more)
 
 
-def _as_pressed(contact: Contact) -> UnitShear | None:
+def _as_pressed(contact: Contact) -> UnitSlides | None:
     """Return shear that goes as the pressure does when the bodies come nearer."""
     if contact.response is None:
         return None
@@ -153,7 +172,7 @@ def _as_pressed(contact: Contact) -> UnitShear | None:
     if not (rate.any() and np.isfinite(rate).all()):
         return None
     none = np.zeros_like(rate)
-    return np.stack([rate, none], axis=1), np.stack([none, rate], axis=1)
+    return UnitSlides((np.stack([rate, none], axis=1), np.stack([none, rate], axis=1)))
 
 
 class CoupledMaps(ShearMaps, Protocol):
@@ -327,6 +346,17 @@ class _CoupledStuck:
         return found if left <= rtol else None
 
 
+@dataclass(frozen=True, eq=False)
+class _Followed:
+    """Shear that follows a displacement, and what is left of this."""
+
+    shear: Real
+    displacement: Real  # by the shear, exactly
+    rest: Real
+    step: Real  # about the shear that the rest asks for
+    products: int
+
+
 class _Stuck:
     """A contact of which some nodes follow a slide along the rims of their discs alone."""
 
@@ -338,57 +368,72 @@ class _Stuck:
         """Return what of vectors nodes can follow."""
         return followed(vectors, self._slips, self._rim)
 
-    def stiffness(self, accuracy: float, start: UnitShear | None) -> tuple[Real, UnitShear, int]:
+    def stiffness(self, accuracy: float, start: UnitSlides | None) -> tuple[Real, UnitSlides, int]:
         """Return the total shear by unit slides along x and y, the shear, and the convolutions.
 
         It is the energy form of both solutions, so that it errs by the square of their residuals;
         of what these still displace, the energy form by the preconditioner is added.
         """
-        spent, found = 0, []
+        found = []
         targets = [self.allowed(np.zeros_like(self._rim) + axis) for axis in np.eye(2)]
         for axis, target in enumerate(targets):
-            begun = None if start is None else self.allowed(start[axis])
-            *solved, products = self.solved(target, begun, accuracy)
-            spent += 2 * products
-            found.append(solved)
+            begun = None if start is None else start.shear[axis]
+            moved = None if start is None or not start.displacement else start.displacement[axis]
+            found.append(self.solved(target, begun, moved, accuracy))
         form = np.array(
             [
                 [
-                    inner(target, shear) + inner(other, rest) + inner(other_rest, step)
-                    for shear, rest, step in found
+                    inner(target, each.shear)
+                    + inner(other.shear, each.rest)
+                    + inner(other.rest, each.step)
+                    for each in found
                 ]
-                for target, (other, other_rest, _) in zip(targets, found, strict=True)
+                for target, other in zip(targets, found, strict=True)
             ]
         )
-        return (form + form.T) / 2, (found[0][0], found[1][0]), spent
+        x, y = found
+        unit = UnitSlides((x.shear, y.shear), (x.displacement, y.displacement))
+        return (form + form.T) / 2, unit, 2 * (x.products + y.products)
 
     def solved(
-        self, target: Real, start: Real | None, accuracy: float
-    ) -> tuple[Real, Real, Real, int]:
+        self, target: Real, start: Real | None, known: Real | None, accuracy: float
+    ) -> _Followed:
         """Solve by conjugate gradients, whose preconditioner may be a solution by rough ones.
 
         As that differs from step to step, directions are conjugate by the change of residuals [1]_.
-        Return the shear, what it leaves, the next step, and the products.
+        The start may displace as is known.
         """
-        shear, residual, products = np.zeros_like(target), target.copy(), 0
+        shear, moved, products = np.zeros_like(target), np.zeros_like(target), 0
         if start is not None:
-            response = self.allowed(self._maps.exact(start))
-            length, products = inner(start, target) / inner(start, response), 1
-            shear, residual = length * start, residual - length * response
+            shear = self._begun(target, start, known, accuracy)
+            moved, products = self._maps.exact(shear), 1
+            if known is None:
+                length = inner(shear, target) / inner(shear, moved)
+                shear, moved = length * shear, length * moved
+        residual = target - self.allowed(moved)
         direction, before, gone = np.zeros_like(target), 0.0, residual
         while True:
             scale = accuracy * max(inner(shear, target), 0.0)
             step, error = self._preconditioned(residual, scale)
             energy = inner(residual, step)
             if not error * energy > scale or products > _MOST_STEPS:
-                return shear, residual, step, products
+                return _Followed(shear, moved, residual, step, products)
             part = inner(residual - gone, step) / before if before > 0 else 0.0
             direction = step + max(part, 0.0) * direction
-            response = self.allowed(self._maps.exact(direction))
+            response = self._maps.exact(direction)
             products += 1
             length = inner(direction, residual) / inner(direction, response)
             before, gone = energy, residual
-            shear, residual = shear + length * direction, residual - length * response
+            shear, moved = shear + length * direction, moved + length * response
+            residual = residual - length * self.allowed(response)
+
+    def _begun(self, target: Real, start: Real, known: Real | None, accuracy: float) -> Real:
+        """Return what nodes can follow of a start, led on by the rough operator if it is known."""
+        shear, rough = self.allowed(start), self._maps.rough
+        if known is None or rough is None:
+            return shear
+        left = target - self.allowed(known + rough(shear - start))
+        return shear + self._preconditioned(left, accuracy * max(inner(shear, target), 0.0))[0]
 
     def _preconditioned(self, residual: Real, scale: float) -> tuple[Real, float]:
         """Return about the shear that displaces so, by steps with rough operators, and its error.

@@ -28,7 +28,7 @@ from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.operators.coarse_grid import PaddedGrid, Splines, sharpened
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.even_sums import even_sums
-from roughline.halfspace.operators.grid_nodes import RUN_UNIT, GridNodes
+from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.operators.restricted import (
     NEAR_RADIUS,
     SMOOTHING_WIDTH,
@@ -42,14 +42,7 @@ _EVEN_PARTS, _SKEW_PART, _ALONG_X, _ALONG_Y = (
     (True, False),
     (False, True),
 )
-
-
-@dataclass(frozen=True, eq=False)
-class _NearAndFar:
-    """What displaces in one direction or two, by values of one kind or two."""
-
-    near: Single  # shape (to, by, lags, lags)
-    far: Any  # shape (to, by, modes, modes), complex or not
+_LAGS_AT_A_TIME = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,9 +53,11 @@ class RestrictedShear:
     """
 
     # of displacement along x by shear along x, along y by that along y, and across; along x and
-    # along y by pressure
+    # along y by pressure, and into the body by pressure
     far: tuple[Single, ...]  # spectra on the coarse grid, for q >= 0 along y
-    near: tuple[Single, ...]  # by the distance in cells, and seven zeros beside each row
+    # by the distance in cells, on one side of a node, and three zeros beside each row; on the other
+    # side they are the same, or the opposite between shear and pressure
+    near: tuple[Single, ...]
     reach: Indices  # columns to which each row of the near parts reaches, to both sides
     splines: Splines
     periods: tuple[int, int]  # of the coarse grid
@@ -84,9 +79,7 @@ class RestrictedShear:
         split = _Split(operator, ratios)
         mean, part, skew = (each[split.modes] for each in (exact.mean, exact.part, exact.skew))
         common, twice, once = split.shares
-        mean, part = mean * common, part * twice
-        # the spectrum of the near part goes on to q = 0, whatever the operator does with the mean
-        mean[0, 0] -= split.at_rest * split.limit
+        mean, part = split.at_rest(mean * common, split.limits[0]), part * twice
         parts = [
             split.made(exact.mean + exact.part, mean + part, _EVEN_PARTS, common),
             split.made(exact.mean - exact.part, mean - part, _EVEN_PARTS, common),
@@ -95,69 +88,71 @@ class RestrictedShear:
         if exact.towards is not None:
             for each, odd in zip(exact.towards, (_ALONG_X, _ALONG_Y), strict=True):
                 parts.append(split.made(each, each[split.modes] * once, odd, once))
+            into = operator.spectrum
+            smooth = split.at_rest(into[split.modes] * common, split.limits[1])
+            parts.append(split.made(into, smooth, _EVEN_PARTS, common))
         near, far = zip(*parts, strict=True)
         splines = Splines.of(operator, ratios)
         return cls(far, near, split.reach, splines, split.coarse, operator.shape, margins)
 
     def displacement(self, shear: Real, sources: GridNodes, targets: GridNodes) -> Real:
         """Return the displacements of nodes under shear; both of shape (nodes, 2)."""
-        return self._moved(shear, sources, targets, self._by_shear)
+        return self._moved(shear, sources, targets, self.near[:3], self._by_shear)
 
-    def by_pressure(self, pressure: Real, sources: GridNodes, targets: GridNodes) -> Real:
-        """Return the displacements of nodes along the surface, shape (targets, 2)."""
-        return self._moved(pressure[:, np.newaxis], sources, targets, self._by_pressure)
-
-    def into_body(self, shear: Real, sources: GridNodes, targets: GridNodes) -> Real:
-        """Return the displacements of nodes into the body under shear, shape (targets,)."""
-        return self._moved(shear, sources, targets, self._into_body)[:, 0]
-
-    @cached_property
-    def _by_shear(self) -> _NearAndFar:
-        near, far = ([[xx, xy], [xy, yy]] for xx, yy, xy in (self.near[:3], self.far[:3]))
-        return _NearAndFar(np.array(near), np.array(far))
+    def displaced(
+        self, pressure: Real, shear: Real, sources: GridNodes, targets: GridNodes
+    ) -> tuple[Real, Real]:
+        """Return the displacements into the body and along the surface by pressure and shear."""
+        both = np.column_stack([shear, pressure])
+        moved = self._moved(both, sources, targets, self.near, self._by_both)
+        return moved[:, 2].copy(), moved[:, :2].copy()
 
     @cached_property
-    def _by_pressure(self) -> _NearAndFar:
-        near, far = ([[each] for each in part[3:]] for part in (self.near, self.far))
-        return _NearAndFar(np.array(near), np.complex64(1j) * np.array(far))
+    def _by_shear(self) -> Single:
+        xx, yy, xy = self.far[:3]
+        return np.array([[xx, xy], [xy, yy]])
 
     @cached_property
-    def _into_body(self) -> _NearAndFar:
-        back = (
-            -np.swapaxes(each, 0, 1) for each in (self._by_pressure.near, self._by_pressure.far)
-        )
-        return _NearAndFar(*map(np.ascontiguousarray, back))
+    def _by_both(self) -> Any:
+        xx, yy, xy, x, y, into = self.far
+        rows = [[xx, xy, 1j * x], [xy, yy, 1j * y], [-1j * x, -1j * y, into]]
+        return np.array(rows, dtype=np.complex64)
 
     def _moved(
-        self, values: Real, sources: GridNodes, targets: GridNodes, parts: _NearAndFar
+        self,
+        values: Real,
+        sources: GridNodes,
+        targets: GridNodes,
+        near: tuple[Single, ...],
+        far: Any,
     ) -> Real:
-        """Return what values displace, near and far."""
+        """Return what values displace, near and far; as many of a node as there are of values."""
         splines, workspace = self.splines, self.splines.workspace
-        unit, (to, by) = np.abs(values).max(initial=0.0), parts.near.shape[:2]
-        result = np.zeros((targets.indices.size, to), dtype=np.float32)
+        unit, count = np.abs(values).max(initial=0.0), values.shape[1]
+        result = np.zeros((targets.indices.size, count), dtype=np.float32)
         if unit == 0:
             return result.astype(np.float64)
         grids = [
             PaddedGrid.of(self.shape, self.margins, workspace, f"padded grid{part}")
-            for part in ("", " of y")[:by]
+            for part in ("", " of y", " of pressure")[:count]
         ]
-        spread = np.empty((by, *splines.shape), dtype=np.float32)
+        spread = np.empty((count, *splines.shape), dtype=np.float32)
         for axis, grid in enumerate(grids):
             given = (values[:, axis] / unit).astype(np.float32)
             spread[axis] = splines.spread(given, sources, grid, "spread pressures")
         moved = []
-        for axis, far in enumerate(fft.convolved_together(spread, parts.far, self.periods)):
+        for axis, each in enumerate(fft.convolved_together(spread, far, self.periods)):
             moved.append(splines.array(f"coarse displacements {axis}"))
-            splines.inside(moved[axis])[:] = far
+            splines.inside(moved[axis])[:] = each
             splines.wrap(moved[axis])
         nodes = targets.rows, targets.columns, *targets.runs
         padded = tuple(each.values for each in grids), grids[0].margins
 
         def add(first: int, last: int) -> None:
-            near, far = (parts.near, self.reach), (tuple(moved), splines.weights)
-            _add_near_and_far(padded, near, *far, nodes, (first, last), result)
+            coarse = tuple(moved), splines.weights
+            _add_near_and_far(padded, (near, self.reach), *coarse, nodes, (first, last), result)
 
-        rows_at_a_time = targets.rows_holding(2**21 // parts.near.size)
+        rows_at_a_time = targets.rows_holding(2**21 // (count * near[0].size))
         fft.share_out_blocks(add, targets.rows.size, rows_at_a_time)
         for grid in grids:
             grid.clear(sources, wrapped=splines.repeats)
@@ -183,14 +178,19 @@ class _Split:
         gauss, half_space = np.exp(-(x**2)), operator.half_space
         assert half_space is not None
         of_one = [float(each[0]) for each in half_space.shear_spectrum(np.ones(1))]
-        self.limit = sum(of_one) / (2 * px * py)  # of q times the mean spectrum
+        into = float(half_space.spectrum(np.ones(1))[0])
+        self.limits = sum(of_one) / 2, into  # of q times the mean spectrum of shear, of pressure
         self.shares = common, common + 2 * x / math.sqrt(math.pi) * gauss, gauss
-        self.at_rest = SMOOTHING_WIDTH * side / math.sqrt(math.pi)
+        self._at_rest = SMOOTHING_WIDTH * side / math.sqrt(math.pi) / (px * py)
         radius = NEAR_RADIUS * side
         self._lags = np.arange(int(radius / dx) + 1), np.arange(int(radius / dy) + 1)
         self._inside = np.hypot(self._lags[0][:, np.newaxis] * dx, self._lags[1] * dy) <= radius
-        reach = self._inside.sum(axis=1) - 1
-        self.reach = np.concatenate([reach[:0:-1], reach])
+        self.reach = self._inside.sum(axis=1) - 1
+
+    def at_rest(self, smooth: Real, limit: float) -> Real:
+        """Take off what the near part has at q = 0, whatever the operator does with the mean."""
+        smooth[0, 0] -= self._at_rest * limit
+        return smooth
 
     def made(
         self, spectrum: Real, smooth: Real, odd: tuple[bool, bool], share: Real
@@ -217,9 +217,10 @@ class _Split:
                 smooth[(slice(None),) * axis + (-1,)] = 0.0
         signs = [-1.0 if is_odd else 1.0 for is_odd in odd]
         # taps go by the distance of what displaces, so that one that is odd turns
-        near = math.prod(signs) * np.concatenate([signs[0] * near[:0:-1], near])
-        beside = np.zeros((len(near), RUN_UNIT - 1))
+        near *= math.prod(signs)
+        beside = np.zeros((len(near), _LAGS_AT_A_TIME - 1))
         taps = np.concatenate([signs[1] * near[:, :0:-1], near, beside], axis=1)
+        taps[0] /= 2  # both sides have all of this row
         half = sharpened(smooth, self.coarse)[np.minimum(*self._rows_of_half)]
         half[self.coarse[0] // 2 + 1 :] *= signs[0]
         return taps.astype(np.float32), half.astype(np.float32)
@@ -241,7 +242,7 @@ def is_uniform(half_space: HalfSpace) -> bool:
 @compiled
 def _add_near_and_far(
     padded: tuple[tuple[Floats, ...], tuple[int, int]],
-    near: tuple[Floats, Integers],
+    near: tuple[tuple[Floats, ...], Integers],
     coarse: tuple[Floats, ...],
     weights: tuple[Floats, Floats],
     nodes: tuple[Integers, Integers, Integers, Integers],
@@ -250,27 +251,25 @@ def _add_near_and_far(
 ) -> None:
     """Add what near values and what the coarse grid displace, at each node of a block of rows.
 
-    All is as for pressures, with a padded grid for each kind of values, a coarse grid for each kind
-    of displacements, and a near part for both.
+    All is as for pressures, with a padded grid for each kind of values, and a coarse grid for each
+    kind of displacements.
     """
-    (grids, margins), (taps, reach), (rows, columns, first_run, runs) = padded, near, nodes
-    ratio, radius, width = weights[1].shape[0], taps.shape[2] // 2, grids[0].shape[1]
-    far, sums = np.empty_like(coarse[0][0]), np.empty_like(grids[0][:2])
-    last = len(coarse) - 1
+    (grids, margins), (rows, columns, first_run, runs) = padded, nodes
+    ratio, width, count = weights[1].shape[0], grids[0].shape[1], len(coarse)
+    far, sums = np.empty_like(coarse[0][0]), np.empty((count, width), dtype=np.float32)
     for k in range(block[0], block[1]):
-        above = (rows[k] + margins[0] - radius) * width
         for run in range(first_run[k], first_run[k + 1]):
             begin, end, length = runs[run]
-            start = columns[begin]
+            place = rows[k] + margins[0], columns[begin] + margins[1]
             sums[:, :length] = 0
-            for by in range(len(grids)):
-                flat = grids[by].reshape(-1)[above + start :]
-                both = taps[0, by], taps[last, by], reach
-                _sum_near(flat, (width, margins[1]), both, sums[0, :length], sums[1, :length])
+            _sum_shear(grids, place, near, sums[0, :length], sums[1, :length])
+            if count == 3:
+                _sum_by_pressure(grids, place, near, sums[0, :length], sums[1, :length])
+                _sum_into_body(grids, place, near, sums[2, :length])
             for i in range(begin, end):
-                for to in range(len(coarse)):
-                    result[i, to] = sums[to, columns[i] - start]
-        for to in range(len(coarse)):
+                for to in range(count):
+                    result[i, to] = sums[to, columns[i] - columns[begin]]
+        for to in range(count):
             interpolate_row(coarse[to], weights[0], rows[k], far)
             for i in range(runs[first_run[k], 0], runs[first_run[k + 1] - 1, 1]):
                 column, part = columns[i] // ratio, columns[i] % ratio
@@ -279,36 +278,103 @@ def _add_near_and_far(
 
 
 @compiled_sums
-def _sum_near(
-    flat: Floats,
+def _sum_shear(
+    grids: tuple[Floats, ...],
     place: tuple[int, int],
-    near: tuple[Floats, Floats, Integers],
+    near: tuple[tuple[Floats, ...], Integers],
     first: Floats,
     second: Floats,
 ) -> None:
-    """Add two near parts over a run, from the first row that they reach on.
+    """Add the displacements along the surface by near shear over a run that begins at a place.
 
-    The place is the width of the flat grid, and its margin.
+    Shear at opposite distances displaces alike, so that its sums are weighed.
     """
-    (ones, others, reach), (width, margin) = near, place
-    across = (ones.shape[1] - 8) // 2
-    for di in range(ones.shape[0]):
-        groups = (2 * reach[di] + 8) // 8  # of eight taps
-        at = di * width + margin - reach[di]
-        line = flat[at : at + 8 * groups + first.size]
-        one, other = ones[di, across - reach[di] :], others[di, across - reach[di] :]
-        for g in range(0, 8 * groups, 8):
-            s0, s1, s2, s3 = one[g], one[g + 1], one[g + 2], one[g + 3]
-            s4, s5, s6, s7 = one[g + 4], one[g + 5], one[g + 6], one[g + 7]
-            t0, t1, t2, t3 = other[g], other[g + 1], other[g + 2], other[g + 3]
-            t4, t5, t6, t7 = other[g + 4], other[g + 5], other[g + 6], other[g + 7]
-            p = line[g:]
+    parts, reach = near
+    xx, yy, xy = parts[0], parts[1], parts[2]
+    x, y, width = grids[0].reshape(-1), grids[1].reshape(-1), grids[0].shape[1]
+    across, start = (xx.shape[1] - 4) // 2, place[0] * width + place[1]
+    for di in range(xx.shape[0]):
+        begin, off = across - reach[di], start - di * width + reach[di] - 3
+        on = start + di * width - reach[di]
+        one, two, both = xx[di, begin:], yy[di, begin:], xy[di, begin:]
+        for g in range(0, 2 * reach[di] + 1, 4):
+            a0, a1, a2, a3 = one[g], one[g + 1], one[g + 2], one[g + 3]
+            b0, b1, b2, b3 = two[g], two[g + 1], two[g + 2], two[g + 3]
+            c0, c1, c2, c3 = both[g], both[g + 1], both[g + 2], both[g + 3]
+            p, q, r, s = x[on + g :], y[on + g :], x[off - g :], y[off - g :]
             for j in range(first.size):
-                p0, p1, p2, p3 = p[j], p[j + 1], p[j + 2], p[j + 3]
-                p4, p5, p6, p7 = p[j + 4], p[j + 5], p[j + 6], p[j + 7]
-                first[j] += ((s0 * p0 + s1 * p1) + (s2 * p2 + s3 * p3)) + (
-                    (s4 * p4 + s5 * p5) + (s6 * p6 + s7 * p7)
+                p0, p1, p2, p3 = (
+                    p[j] + r[j + 3],
+                    p[j + 1] + r[j + 2],
+                    p[j + 2] + r[j + 1],
+                    p[j + 3] + r[j],
                 )
-                second[j] += ((t0 * p0 + t1 * p1) + (t2 * p2 + t3 * p3)) + (
-                    (t4 * p4 + t5 * p5) + (t6 * p6 + t7 * p7)
+                q0, q1, q2, q3 = (
+                    q[j] + s[j + 3],
+                    q[j + 1] + s[j + 2],
+                    q[j + 2] + s[j + 1],
+                    q[j + 3] + s[j],
+                )
+                first[j] += ((a0 * p0 + a1 * p1) + (a2 * p2 + a3 * p3)) + (
+                    (c0 * q0 + c1 * q1) + (c2 * q2 + c3 * q3)
+                )
+                second[j] += ((c0 * p0 + c1 * p1) + (c2 * p2 + c3 * p3)) + (
+                    (b0 * q0 + b1 * q1) + (b2 * q2 + b3 * q3)
+                )
+
+
+@compiled_sums
+def _sum_by_pressure(
+    grids: tuple[Floats, ...],
+    place: tuple[int, int],
+    near: tuple[tuple[Floats, ...], Integers],
+    first: Floats,
+    second: Floats,
+) -> None:
+    """Add the displacements along the surface by near pressure, opposite at opposite distances."""
+    (parts, reach), last = near, len(grids) - 1
+    along_x, along_y, z = parts[last + 1], parts[last + 2], grids[last].reshape(-1)
+    width, across = grids[last].shape[1], (along_x.shape[1] - 4) // 2
+    start = place[0] * width + place[1]
+    for di in range(along_x.shape[0]):
+        begin, off = across - reach[di], start - di * width + reach[di] - 3
+        on = start + di * width - reach[di]
+        one, two = along_x[di, begin:], along_y[di, begin:]
+        for g in range(0, 2 * reach[di] + 1, 4):
+            a0, a1, a2, a3 = one[g], one[g + 1], one[g + 2], one[g + 3]
+            b0, b1, b2, b3 = two[g], two[g + 1], two[g + 2], two[g + 3]
+            p, r = z[on + g :], z[off - g :]
+            for j in range(first.size):
+                p0, p1 = p[j] - r[j + 3], p[j + 1] - r[j + 2]
+                p2, p3 = p[j + 2] - r[j + 1], p[j + 3] - r[j]
+                first[j] += (a0 * p0 + a1 * p1) + (a2 * p2 + a3 * p3)
+                second[j] += (b0 * p0 + b1 * p1) + (b2 * p2 + b3 * p3)
+
+
+@compiled_sums
+def _sum_into_body(
+    grids: tuple[Floats, ...],
+    place: tuple[int, int],
+    near: tuple[tuple[Floats, ...], Integers],
+    sums: Floats,
+) -> None:
+    """Add the displacements into the body by near pressure and, turned about, by near shear."""
+    (parts, reach), last = near, len(grids) - 1
+    along_x, along_y, into = parts[last + 1], parts[last + 2], parts[last + 3]
+    x, y, z = grids[0].reshape(-1), grids[1].reshape(-1), grids[last].reshape(-1)
+    width, across = grids[0].shape[1], (into.shape[1] - 4) // 2
+    start = place[0] * width + place[1]
+    for di in range(into.shape[0]):
+        begin, off = across - reach[di], start - di * width + reach[di] - 1
+        on = start + di * width - reach[di]
+        one, two, own = along_x[di, begin:], along_y[di, begin:], into[di, begin:]
+        for g in range(0, 2 * reach[di] + 1, 2):
+            a0, a1, b0, b1, c0, c1 = one[g], one[g + 1], two[g], two[g + 1], own[g], own[g + 1]
+            p, q, r = x[on + g :], y[on + g :], z[on + g :]
+            s, t, w = x[off - g :], y[off - g :], z[off - g :]
+            for j in range(sums.size):
+                sums[j] += (
+                    (c0 * (r[j] + w[j + 1]) + c1 * (r[j + 1] + w[j]))
+                    + (a0 * (s[j + 1] - p[j]) + a1 * (s[j] - p[j + 1]))
+                    + (b0 * (t[j + 1] - q[j]) + b1 * (t[j] - q[j + 1]))
                 )

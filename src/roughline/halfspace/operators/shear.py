@@ -62,10 +62,10 @@ class ShearConvolution:
     ) -> Real:
         """Return the displacements of nodes under shear; both of shape (nodes, 2)."""
 
-        def weigh(columns: Floats, first: int) -> None:
+        def weigh(first: int, columns: Floats) -> None:
             _weigh(columns, self.mean, self.part, self.skew, first)
 
-        return self._transformed(shear, sources, targets, precision, weigh)
+        return self._transformed((shear,), sources, targets, precision, weigh)[0]
 
     def by_pressure(self, pressure: Real, sources: GridNodes, targets: GridNodes) -> Real:
         """Return the displacements of nodes along the surface, shape (targets, 2)."""
@@ -73,11 +73,11 @@ class ShearConvolution:
             return np.zeros((targets.indices.size, 2))
         towards = self.towards
 
-        def weigh(columns: Floats, first: int) -> None:
+        def weigh(first: int, columns: Floats) -> None:
             _weigh_pressure(columns, *towards, first)
 
         values = np.stack([pressure, np.zeros_like(pressure)], axis=1)
-        return self._transformed(values, sources, targets, "float64", weigh)
+        return self._transformed((values,), sources, targets, "float64", weigh)[0]
 
     def into_body(self, shear: Real, sources: GridNodes, targets: GridNodes) -> Real:
         """Return the displacements of nodes into the body under shear, shape (targets,)."""
@@ -85,52 +85,74 @@ class ShearConvolution:
             return np.zeros(targets.indices.size)
         towards = self.towards
 
-        def weigh(columns: Floats, first: int) -> None:
+        def weigh(first: int, columns: Floats) -> None:
             _weigh_into_body(columns, *towards, first)
 
-        return self._transformed(shear, sources, targets, "float64", weigh)[:, 0].copy()
+        return self._transformed((shear,), sources, targets, "float64", weigh)[0][:, 0].copy()
+
+    def displaced(
+        self, pressure: Real, shear: Real, normal: Real, sources: GridNodes, targets: GridNodes
+    ) -> tuple[Real, Real]:
+        """Return the displacements into the body and along the surface by pressure and shear.
+
+        The normal spectrum is that of pressure that displaces into the body.
+        """
+        assert self.towards is not None
+        along, towards = (self.mean, self.part, self.skew), self.towards
+
+        def weigh(first: int, sheared: Floats, pressed: Floats) -> None:
+            _weigh_both(sheared, pressed, along, towards, normal, first)
+
+        values = shear, np.stack([pressure, np.zeros_like(pressure)], axis=1)
+        moved, into = self._transformed(values, sources, targets, "float64", weigh)
+        return into[:, 0].copy(), moved
 
     def _transformed(
         self,
-        values: Real,
+        fields: tuple[Real, ...],
         sources: GridNodes,
         targets: GridNodes,
         precision: Precision,
-        weigh: Callable[[Floats, int], None],
-    ) -> Real:
-        """Return vectors on nodes, transformed, weighed and transformed back.
+        weigh: Callable[..., None],
+    ) -> list[Real]:
+        """Return fields of vectors on nodes, transformed, weighed together and transformed back.
 
         Rows come first, then columns in pairs of opposite wavenumbers, block by block, then rows
         back.
         """
         (nx, _), (mx, my) = self.shape, self.periods
         kind = np.complex128 if precision == "float64" else np.complex64
-        modes = self.workspace.array("rows", (nx, my + 8), kind)  # those of pressures, too
-        result = np.empty((targets.indices.size, 2))
+        names = ("rows", "shear rows")[: len(fields)]  # the first are those of pressures, too
+        rows = [self.workspace.array(name, (nx, my + 8), kind) for name in names]
+        results = [np.empty((targets.indices.size, 2)) for _ in fields]
 
         def transform_rows(first: int, last: int) -> None:
-            _scatter(values, *sources.listed[:2], first, last, modes)
-            fft.fft_along(modes[first:last, :my], 1, forward=True)
+            for values, modes in zip(fields, rows, strict=True):
+                _scatter(values, *sources.listed[:2], first, last, modes)
+                fft.fft_along(modes[first:last, :my], 1, forward=True)
 
         def convolve_columns(first: int, last: int) -> None:
-            columns = np.zeros((2, mx, last - first), dtype=kind)
-            _load(modes, my, sources.rows, first, columns)
-            for each in columns:
-                fft.fft_along(each, 0, forward=True)
-            weigh(columns, first)
-            for each in columns:
-                fft.fft_along(each, 0, forward=False)
-            _store(columns, targets.rows, first, modes, my)
+            blocks = np.zeros((len(fields), 2, mx, last - first), dtype=kind)
+            for columns, modes in zip(blocks, rows, strict=True):
+                _load(modes, my, sources.rows, first, columns)
+                for each in columns:
+                    fft.fft_along(each, 0, forward=True)
+            weigh(first, *blocks)
+            for columns, modes in zip(blocks, rows, strict=True):
+                for each in columns:
+                    fft.fft_along(each, 0, forward=False)
+                _store(columns, targets.rows, first, modes, my)
 
         def transform_rows_back(first: int, last: int) -> None:
-            fft.fft_along(modes[first:last, :my], 1, forward=False)
-            _gather(modes, *targets.listed[:2], first, last, result)
+            for modes, result in zip(rows, results, strict=True):
+                fft.fft_along(modes[first:last, :my], 1, forward=False)
+                _gather(modes, *targets.listed[:2], first, last, result)
 
         at_a_time = fft.LINES_AT_A_TIME
         fft.share_out_blocks(transform_rows, sources.rows.size, at_a_time)
         fft.share_out_blocks(convolve_columns, my // 2 + 1, at_a_time // 2)
         fft.share_out_blocks(transform_rows_back, targets.rows.size, at_a_time)
-        return result
+        return results
 
 
 def shear_on_grid(
@@ -370,3 +392,31 @@ def _weigh_into_body(columns: Floats, towards_x: Real, towards_y: Real, first: i
             z, other = columns[0, i, j], columns[1, opposite, j]
             columns[0, i, j] = -0.5j * (np.conj(e) * z + e * np.conj(other))
             columns[1, opposite, j] = 0.5j * (np.conj(e) * other + e * np.conj(z))
+
+
+@compiled
+def _weigh_both(
+    sheared: Floats,
+    pressed: Floats,
+    along: tuple[Real, Real, Real],
+    towards: tuple[Real, Real],
+    normal: Real,
+    first: int,
+) -> None:
+    """Replace shear and pressure of pairs of opposite waves by what both displace."""
+    (mean, part, skew), (towards_x, towards_y), period = along, towards, sheared.shape[1]
+    for i in range(period):
+        opposite = (period - i) % period
+        quarter = min(i, opposite)
+        sign = 1.0 if i == quarter else -1.0
+        for j in range(sheared.shape[2]):
+            at = quarter, first + j
+            z, other = sheared[0, i, j], sheared[1, opposite, j]
+            p, p_other = pressed[0, i, j], pressed[1, opposite, j]
+            mixed, e = part[at] + 1j * sign * skew[at], sign * towards_x[at] + 1j * towards_y[at]
+            sheared[0, i, j] = mean[at] * z + mixed * np.conj(other) + 1j * e * p
+            sheared[1, opposite, j] = mean[at] * other + mixed * np.conj(z) - 1j * e * p_other
+            pressed[0, i, j] = normal[at] * p - 0.5j * (np.conj(e) * z + e * np.conj(other))
+            pressed[1, opposite, j] = normal[at] * p_other + 0.5j * (
+                np.conj(e) * other + e * np.conj(z)
+            )
