@@ -158,9 +158,9 @@ def _publish_paper(results: PaperResults) -> None:
         for picture in (Path(folder) / "figures").glob("*.png"):
             shutil.copy(picture, _FIGURES)
         shutil.copy(Path(folder) / "data" / "claims.csv", _TABLES)
-    page, rows = _with_rows_apart(text)
+    included, rows = _with_rows_apart(text)
     (_FIGURES / "claims.html").write_text(rows, encoding="utf-8")
-    (DOCS / "paper.md").write_text(page, encoding="utf-8")
+    (DOCS / "paper.md").write_text(included, encoding="utf-8")
 
 
 def _with_wide_tables_apart(section: Section) -> Section:
