@@ -83,9 +83,10 @@ class Page:
             places = np.linspace(0, len(some) - 1, at_most).round().astype(int)
             some = [some[place] for place in places]
         count = f"all {len(rows)} rows" if len(some) < len(rows) else "these rows"
-        lines = [head, ["---"] * len(head), *some] if some else []
+        lines = [head, *some] if some else []
         cells = ([cell.replace("|", "\\|") for cell in row] for row in lines)
         table = [f"| {' | '.join(row)} |" for row in cells]
+        table[1:1] = [f"|{'---|' * len(head)}"] if some else []
         return "\n".join([*table, "", f"[As CSV, {count}]({file})."]).strip()
 
 

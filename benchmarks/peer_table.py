@@ -192,7 +192,7 @@ def contact_areas(rows, page):
     )
     of_small = " on small grids" * are_small(rows)
     heading = f"Contact areas of these loads{of_small}"
-    tabled(page, heading, columns, found, cells, said, at_most=3)
+    tabled(page, heading, columns, found, cells, said, at_most=0)
 
 
 def paths(rows, page):

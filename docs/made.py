@@ -436,10 +436,11 @@ def page_of_findings(folder: Path) -> str:
 
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """Return a table in Markdown."""
-    lines = [header, ["---"] * len(header), *rows]
-    return "".join(
-        f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in line)} |\n" for line in lines
+    first, *others = (
+        f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in line)} |\n"
+        for line in (header, *rows)
     )
+    return "".join([first, f"|{'---|' * len(header)}\n", *others])
 
 
 def _validated(row: Any) -> tuple[str, ...]:

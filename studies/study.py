@@ -75,8 +75,13 @@ def write_tables(told: Mapping[str, object], study: str) -> None:
     folder.mkdir(parents=True)
     for name, table in told.items():
         if isinstance(table, Table):
-            with (folder / f"{name}.csv").open("w", encoding="utf-8", newline="") as file:
-                csv.writer(file, lineterminator="\n").writerows([table.header, *table.rows])
+            write_table(table, folder / f"{name}.csv")
+
+
+def write_table(table: Table, path: Path) -> None:
+    """Write a table as CSV."""
+    with path.open("w", encoding="utf-8", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([table.header, *table.rows])
 
 
 def _in_short(table: Table, file: str) -> str:

@@ -3,7 +3,8 @@ Why does a large surface behave differently from a small one?
 =============================================================
 
 A surface as large as one roll-off wavelength follows a power law with α near 1 / (1 + H). One with
-many roll-off wavelengths along its side has many contacts far apart, and α grows towards 0.9.
+many roll-off wavelengths along its side has many contacts far apart, and α grows towards 0.9. Points
+are means of three periodic surfaces.
 """
 
 import numpy as np
@@ -21,7 +22,7 @@ for waves in (1, 4, 16):
     curves = [rl.press(each, E_star=1.0, forces=forces, periodic=True) for each in surfaces]
     mean = rl.average([curve.stiffness for curve in curves]).mean
     slope = np.polyfit(np.log(forces[:5]), np.log(mean[:5]), 1)[0]
-    axes.loglog(forces, mean, "o-", label=f"{waves} waves a side, α = {slope:.2f}")
+    axes.loglog(forces, mean, "o-", label=f"{waves}: α = {slope:.2f}")
 
 axes.set(xlabel=r"force $F / (E^* h L)$", ylabel="stiffness $k / (E^* L)$")
-axes.legend(title="periodic, mean of 3")
+axes.legend(title="waves along a side")

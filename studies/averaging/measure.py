@@ -15,7 +15,6 @@ import numpy as np
 import xarray
 
 from roughline.paper.averaging import Fixed, exponent_of_means
-from roughline.paper.results import published_dataset
 from roughline.paper.stated import EXPONENT_TOLERANCE
 from roughline.paper.windows import ForceWindow
 from roughline.statistics.averages import Averaging
@@ -23,6 +22,7 @@ from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.power_law import linear_exponent, scaling_exponent
 from roughline.statistics.verdict import ClaimCase, around
 from studies.judged import Found
+from studies.paper.data import dataset
 from studies.reduced_data import read_one, write_one
 
 HERE = Path(__file__).parent
@@ -112,10 +112,10 @@ def fit() -> None:
     found = np.empty((*sizes, 3))
     for place in itertools.product(*map(range, sizes)):
         bodies, window, what, mean, dimension = place
-        one = published_dataset(BODIES[bodies]).sel(fractal_dimension=DIMENSIONS[dimension])
+        one = dataset(BODIES[bodies]).sel(fractal_dimension=DIMENSIONS[dimension])
         estimate = exponent_of_means(one, windows(BODIES[bodies])[window], fixed[what], means[mean])
         found[place] = (estimate.value, estimate.low, estimate.high)
-    counts = {name: published_dataset(name).sizes["realisation"] for name in BODIES}
+    counts = {name: dataset(name).sizes["realisation"] for name in BODIES}
     coordinates = {
         "bodies": list(BODIES),
         "fixed": fixed,

@@ -7,7 +7,6 @@ from functools import partial
 
 import numpy as np
 
-from roughline.paper.results import published_dataset
 from roughline.paper.stated import EXPONENT_TOLERANCE
 from roughline.paper.windows import ForceWindow
 from roughline.report.page import Table
@@ -30,6 +29,7 @@ from studies.averaging.measure import (
     windows,
 )
 from studies.judged import cell, spread
+from studies.paper.data import dataset
 from studies.reduced_data import version_of
 from studies.study import Study
 
@@ -71,7 +71,7 @@ def told() -> dict[str, object]:
         "light_at_force": cell(exponent("surfaces", light, FORCE, 2.0)),
         "exponents": _exponent_table("surfaces"),
         "exponents_of_lines": _exponent_table("lines"),
-        "version": version_of(map(published_dataset, BODIES)),
+        "version": version_of(map(dataset, BODIES)),
     }
 
 

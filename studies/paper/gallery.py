@@ -2,7 +2,7 @@
 
     python -m studies.paper.gallery
 
-writes ``gallery.nc`` into the data of the package: topography and deflection on every sixteenth
+writes ``data/gallery.nc`` beside this file: topography and deflection on every sixteenth
 point, and the share of each block of four by four cells that is in contact.
 """
 
@@ -13,7 +13,7 @@ from roughline._version import __version__
 from roughline.campaign.export import write_netcdf
 from roughline.paper.gallery import Gallery
 from roughline.paper.plan import paper_plan
-from roughline.paper.results import published_folder
+from studies.paper.data import FOLDER
 
 _EVERY, _BLOCK = 16, 4
 
@@ -47,9 +47,7 @@ def main() -> None:
         "roughline_version": __version__,
         "contact": f"share of each block of {_BLOCK} x {_BLOCK} cells",
     }
-    write_netcdf(
-        xarray.Dataset(variables, coordinates, attributes), published_folder() / "gallery.nc"
-    )
+    write_netcdf(xarray.Dataset(variables, coordinates, attributes), FOLDER / "gallery.nc")
 
 
 def _shares(contact: np.ndarray) -> np.ndarray:

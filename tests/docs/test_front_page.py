@@ -8,7 +8,10 @@ ROOT = Path(__file__).parents[2]
 
 def test_claims_in_short_stand_on_the_page_of_the_paper():
     short = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
-    page = (ROOT / "docs" / "paper.md").read_text(encoding="utf-8")
+    page = "".join(
+        (ROOT / "docs" / each).read_text(encoding="utf-8")
+        for each in ("paper.md", "figures/paper/claims.html")
+    )
     section = short.split("## The paper's claims in short")[1].split("```")[0]
     rows = [line.strip("|").split("|") for line in section.splitlines() if line.startswith("| ")]
     assert len(rows) > 10

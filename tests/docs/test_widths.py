@@ -5,7 +5,7 @@ from pathlib import Path
 from markdown_it import MarkdownIt
 
 DOCS = Path(__file__).parents[2] / "docs"
-PAGES = sorted(path for path in DOCS.glob("*.md") if "\n| --" in path.read_text("utf-8"))
+PAGES = sorted(path for path in DOCS.glob("*.md") if "\n|--" in path.read_text("utf-8"))
 STYLE = (
     "body { font: 16px/1.5 'DejaVu Sans', sans-serif; margin: 0 32px } "
     "table { border-collapse: collapse } "

@@ -9,7 +9,6 @@ import xarray
 
 from benchmarks.made_curves import DEPTH_EXPONENT, DEPTH_WINDOW, ensemble, exponent_at_level
 from roughline.paper.averaging import exponent_of_means
-from roughline.paper.results import published_dataset
 from roughline.statistics.verdict import Verdict
 from studies.averaging.measure import (
     DATA,
@@ -22,6 +21,7 @@ from studies.averaging.measure import (
     windows,
 )
 from studies.averaging.study import FORCE, STUDY, USUAL
+from studies.paper.data import dataset
 from studies.reduced_data import read_one, write_one
 from studies.study import DOCS
 
@@ -57,7 +57,7 @@ def test_the_data_are_those_of_the_published_study():
         ("lines", (1e-3, 1e-1), choices()[0]),
         ("surfaces", (1e-3, 1e-2), choices()[4]),
     ):
-        one = published_dataset(bodies).sel(fractal_dimension=2.4)
+        one = dataset(bodies).sel(fractal_dimension=2.4)
         found = exponent_of_means(one, window, choice.fixed, choice.averaging)
         kept = exponent(bodies, window, choice, 2.4)
         for name in ("value", "low", "high"):

@@ -10,12 +10,13 @@ import pytest
 import roughline as rl
 from roughline import campaign
 from roughline.paper.laws import exponent_estimate
-from roughline.paper.results import published_dataset, published_results
+from roughline.paper.results import published_results
 from roughline.paper.windows import Windows
 from studies.area.measure import REDUCED as AREA
 from studies.correlations.measure import version as version_of_correlations
 from studies.finite_size.samples import REDUCED as FINITE_SIZE
 from studies.paper import study
+from studies.paper.data import dataset
 from studies.paper.study import ENSEMBLES, PLAN, computing_of, refuse_another_plan
 from studies.sealing.study import data as of_sealing
 
@@ -24,7 +25,7 @@ def test_the_data_are_those_of_the_plan():
     refuse_another_plan()
     plan = campaign.read_plan(PLAN)
     for file_name, name in ENSEMBLES.items():
-        data, ensemble = published_dataset(file_name), plan.ensemble(name)
+        data, ensemble = dataset(file_name), plan.ensemble(name)
         assert data.sizes["realisation"] == ensemble.realisations
         assert set(data.fractal_dimension.values) <= set(ensemble.fractal_dimensions)
         assert not data.status.values.any()  # no load is left out
@@ -103,7 +104,7 @@ def test_a_body_of_the_data_is_what_the_library_gives(file_name):
     spectrum, seed = ensemble.spectrum(2.4), ensemble.body_seed(realisation)
     body = getattr(spectrum, "line" if ensemble.model == "reduced" else "surface")(ensemble.n, seed)
     curve = rl.press(body, E_star=1.0, forces=ensemble.force_bars[::4])
-    one = published_dataset(file_name).sel(fractal_dimension=2.4).isel(realisation=realisation)
+    one = dataset(file_name).sel(fractal_dimension=2.4).isel(realisation=realisation)
     assert one.stiffness.values[::4] == pytest.approx(curve.stiffness, rel=1e-4)
 
 

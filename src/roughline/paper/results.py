@@ -9,6 +9,8 @@ from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from roughline.campaign.layout import CASE_STATUS, PENDING
 from roughline.errors import StoreError
 from roughline.paper.gallery import gallery_in
@@ -21,8 +23,6 @@ if TYPE_CHECKING:
 
     from roughline.campaign.plan import Ensemble, Plan
     from roughline.campaign.store import Store
-
-_GRIDS = (128, 256, 512, 1024)
 
 
 @dataclass(frozen=True)
@@ -136,7 +136,7 @@ def published_results() -> PaperResults:
     """Return the study that comes with the package; it is read once.
 
     The page "The paper, recomputed" is made of it: 500 lines of 2^20 points and 60 surfaces of
-    2048² for each of six fractal dimensions.
+    2048² for each of six fractal dimensions. What that page alone shows lies in studies/paper.
     """
     text = (published_folder() / "computing.json").read_text(encoding="utf-8")
     return PaperResults(
@@ -146,8 +146,6 @@ def published_results() -> PaperResults:
         full=published_dataset("surfaces"),
         matched=published_dataset("matched"),
         exponents=published_dataset("exponents"),
-        gallery=published_dataset("gallery"),
-        grids={n: published_dataset(f"grid_{n}") for n in _GRIDS},
         other_grid=published_dataset("coarse"),
         computing=Computing(**json.loads(text)),
     )
@@ -175,12 +173,15 @@ def published_dataset(name: str) -> xarray.Dataset:
     """Return one part of that study alone, by the name of its file; it is read once.
 
     "lines" and "surfaces" are the reduced and the full ensemble, "exponents" those of the reduced
-    model over all fractal dimensions.
+    model over all fractal dimensions. Kept in single precision, they are computed with in double.
     """
     import xarray  # here because it loads slowly
 
     with xarray.open_dataset(published_folder() / f"{name}.nc", engine="h5netcdf") as data:
-        return data.load().drop_encoding()
+        kept = data.load().drop_encoding()
+    return kept.map(
+        lambda each: each.astype(np.float64) if each.dtype == np.float32 else each, keep_attrs=True
+    )
 
 
 def published_folder() -> Path:

@@ -206,12 +206,10 @@ def _markdown_pictures(pictures: Sequence[Picture], folder: str) -> str:
 
 def markdown_table(table: Table) -> str:
     """Return a table as Markdown."""
-    lines = [
-        table.header,
-        ["--:" if i in table.numbers else "---" for i in range(len(table.header))],
-    ]
-    cells = [[cell.replace("|", "\\|") for cell in row] for row in (*lines, *table.rows)]
-    return "\n".join(f"| {' | '.join(row)} |" for row in cells)
+    rule = "|".join("--:" if i in table.numbers else "---" for i in range(len(table.header)))
+    cells = [[cell.replace("|", "\\|") for cell in row] for row in (table.header, *table.rows)]
+    header, *rows = (f"| {' | '.join(row)} |" for row in cells)
+    return "\n".join([header, f"|{rule}|", *rows])
 
 
 def sentence(text: str) -> str:
