@@ -89,6 +89,12 @@ def marks(name: str, legend: str, colour: str, **look: Any) -> Series:
     return Series(name, legend, colour, {"scatter": {"line_width": 1.5, **look}})
 
 
+def joined(name: str, legend: str, colour: str, **look: Any) -> Series:
+    """Marks on a line."""
+    glyphs = {"line": {"line_width": 2}, "scatter": {"line_width": 1.5, **look}}
+    return Series(name, legend, colour, glyphs)
+
+
 def line(name: str, legend: str, colour: str, width: float, **look: Any) -> Series:
     """A line without marks."""
     return Series(name, legend, colour, {"line": {"line_width": width, **look}})

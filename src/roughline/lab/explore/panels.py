@@ -10,7 +10,17 @@ from numpy.typing import NDArray
 import roughline as rl
 from roughline.lab.controls import Choice
 from roughline.lab.explore.controls import CHOICES
-from roughline.lab.panels import FORCE, Panel, Points, Series, band, line, marks, theory_lines
+from roughline.lab.panels import (
+    FORCE,
+    Panel,
+    Points,
+    Series,
+    band,
+    joined,
+    line,
+    marks,
+    theory_lines,
+)
 
 
 def over_force(
@@ -36,15 +46,7 @@ def over_force(
 
 UNRESOLVED_3D = "3D, fewer than ten cells touch"
 """Name of loads whose contact the grid decides."""
-BACK = Series(
-    name="back",
-    legend="3D, way back",
-    colour="here",
-    glyphs={
-        "line": {"line_width": 2},
-        "scatter": {"line_width": 1.5, "size": 5, "marker": "square"},
-    },
-)
+BACK = joined("back", "3D, way back", "here", size=5, marker="square")
 """The way back from the present load."""
 
 
