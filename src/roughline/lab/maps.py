@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -45,12 +45,14 @@ class Map:
     corner: Sequence[float] = (0.0, 0.0)  # where it lies in the frame
     scale: float = 0.0  # of heights: their unit over that of its axes, where that is known
     table: tuple[list[str], list[list[str]]] | None = None  # for those who do not see it
+    called: Mapping[str, str] = field(default_factory=dict)  # what colours mean, if it is not usual
 
     @property
     def meanings(self) -> dict[str, str]:
         """What colours of the theme mean in it, by their names."""
         marks = self.palette if isinstance(self.palette, tuple) else ()
-        return {name: _MEANINGS[name] for name in (*marks, self.blank) if name in _MEANINGS}
+        known = {**_MEANINGS, **self.called}
+        return {name: known[name] for name in (*marks, self.blank) if name in known}
 
     @property
     def look(self) -> dict[str, Any]:

@@ -48,6 +48,7 @@ class Panel:
     is_logarithmic: bool = True
     of_places: bool = False  # whether x counts places with names: 1, 2, 3
     cursor: Literal["", "height", "width"] = ""  # how a line lies that can be dragged
+    drags: str = "F"  # key of the control that it sets
 
     def with_series(self, *others: Series) -> Panel:
         """Return the same panel with more series, each once."""

@@ -11,12 +11,19 @@ from roughline.lab.explore.controls import CHOICES, NUMBERS
 from roughline.lab.explore.fluid import FluidPhysics
 from roughline.lab.explore.layer import LayerPhysics
 from roughline.lab.explore.panels import PANELS
+from roughline.lab.explore.shear import ShearPhysics
 from roughline.lab.explore.state import Physics
 from roughline.lab.explore.words import STRIP
 from roughline.lab.explore.yielding import YieldingPhysics
 from roughline.lab.panels import Panel
 
-PHYSICS: tuple[type[Physics], ...] = (LayerPhysics, YieldingPhysics, AdhesionPhysics, FluidPhysics)
+PHYSICS: tuple[type[Physics], ...] = (
+    LayerPhysics,
+    YieldingPhysics,
+    AdhesionPhysics,
+    FluidPhysics,
+    ShearPhysics,
+)
 """All kinds, in the order of their ticks."""
 _LEADING = 3  # numbers of the strip, in large figures
 
