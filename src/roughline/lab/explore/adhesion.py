@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
@@ -21,6 +20,7 @@ from roughline.lab.explore.state import (
     PageAnswer,
     Physics,
     StripFigure,
+    Words,
 )
 from roughline.lab.explore.words import number_rows
 from roughline.lab.maps import Map
@@ -28,7 +28,6 @@ from roughline.lab.panels import FORCE, Panel, PanelContent, Series, joined, lin
 from roughline.lab.server.tasks import Progress
 from roughline.report.values import figure, up_to_three_digits
 
-_COARSE_POINTS, _FINER_POINTS = 128, 256  # along a side of the surface, at first and then
 _LOAD_HISTORY = 1.0, 2.0, 1.0, 0.0  # over the present load: beyond it, back to it, to none
 _LOAD_BACK = 2  # number of the load of the history that comes back to the present one
 _DEPTHS_IN, _DEPTHS_OUT = 25, 35
@@ -172,9 +171,7 @@ class AdhesionPhysics(Physics):
         """Whether the zone that pulls has enough cells."""
         return self.zone(state, n) >= RESOLVED_FROM
 
-    def words(
-        self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState
-    ) -> Iterator[dict[str, str]]:
+    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> Words:
         """Where bodies pull each other at the load, and how well the grid resolves that."""
         yield _PULLING.said(f"{figure(100 * float(pressed.pulling_fraction[0]))}%")
         cells = f"{figure(self.zone(state, len(fields.gap)), 2)} cells"
@@ -190,13 +187,13 @@ class AdhesionPhysics(Physics):
 
     def further(self, state: ExploreState, refines: bool, progress: Progress) -> PageAnswer:
         """Follow both ways: beyond the load, back to it, and off."""
-        n = state.points(_FINER_POINTS if refines else _COARSE_POINTS)
+        n, is_coarse = state.staged(refines)
         found = _both_ways(state, self, n, progress)
         fields = found.by_forces.fields[_LOAD_BACK]
         content = {
             "panels": _panels(found, state, n),
             "strip": list(_words_of_the_way_back(found, state, n)),
-            "is_coarse": n < state.points(_FINER_POINTS),
+            "is_coarse": is_coarse,
         }
         return content, {} if fields is None else {"retreat": _area_map(fields)}
 
@@ -302,9 +299,7 @@ def _pull_off(found: _BothWays, state: ExploreState) -> str:
     return figure(found.pull / state.force(1.0)) if math.isfinite(found.pull) else "not known"
 
 
-def _words_of_the_way_back(
-    found: _BothWays, state: ExploreState, n: int
-) -> Iterator[dict[str, str]]:
+def _words_of_the_way_back(found: _BothWays, state: ExploreState, n: int) -> Words:
     """The contact on the way back, and the pull-off."""
     area = float(found.by_forces.area_fraction_corrected[_LOAD_BACK])
     yield _RETREAT.said(f"{figure(100 * area)}%", f"on {n}² points")

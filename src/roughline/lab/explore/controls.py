@@ -44,7 +44,7 @@ class LoadNumber(Number):
 
     def in_unit(self, text: str, state: Any) -> float:
         """The force in a text, in newtons."""
-        return load_in_newtons(text, state.length**2)
+        return load_in_newtons(text, state.length**2, self.name)
 
 
 over_side = partial(Number, unit="m", state_scale=lambda state: float(state.length), over="sides")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, ClassVar
@@ -12,7 +11,14 @@ from numpy.typing import NDArray
 
 import roughline as rl
 from roughline.lab.explore.panels import curve_note, loads, over_force, selected_points
-from roughline.lab.explore.state import AddedCode, ExploreState, PageAnswer, Physics, StripFigure
+from roughline.lab.explore.state import (
+    AddedCode,
+    ExploreState,
+    PageAnswer,
+    Physics,
+    StripFigure,
+    Words,
+)
 from roughline.lab.explore.words import number_rows
 from roughline.lab.maps import Map, flux_map, throttled_at
 from roughline.lab.panels import PanelContent, Series, marks, span, theory_lines
@@ -93,9 +99,7 @@ class FluidPhysics(Physics):
         measured = pressed.measured.get(_APERTURE.name)
         return {} if measured is None else {"aperture": measured.values / pressed.rms_height}
 
-    def words(
-        self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState
-    ) -> Iterator[dict[str, str]]:
+    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> Words:
         """What comes through at the load, and the channel that carries most of it."""
         flow, measured, ends = _flow(fields), pressed.measured[_APERTURE.name], None
         aperture = flow.hydraulic_aperture

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import roughline as rl
 from roughline.lab.controls import ControlError, Number, as_code
 from roughline.lab.explore.controls import over_side, poissons_ratio
-from roughline.lab.explore.state import AddedCode, ExploreState, Physics, StripFigure
+from roughline.lab.explore.state import AddedCode, ExploreState, Physics, StripFigure, Words
 from roughline.report.values import figure, up_to_three_digits
 
 _THINNEST_LAYER = 0.5  # of a cell, below which the library refuses a layer
@@ -103,9 +102,7 @@ class LayerPhysics(Physics):
         """Whether it is half a cell thick."""
         return self.t * n >= _THINNEST_LAYER
 
-    def words(
-        self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState
-    ) -> Iterator[dict[str, str]]:
+    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> Words:
         """Its thickness on the grid, and its modulus."""
         thickness = up_to_three_digits(self.t * state.length, None, "m")
         modulus = up_to_three_digits(self.E_l * state.E_star, None, "Pa")

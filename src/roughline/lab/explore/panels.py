@@ -77,13 +77,8 @@ def curve_note(pressed: rl.SurfaceCurve, n: int) -> str:
     return f"marks of the curve on {n}² points{unsure}{unsolved}"
 
 
-_REDUCED = band("line", "1D, mean and range of lines", "light-line", line_width=2.5)
-_SPECTRUM_SERIES = (
-    marks("surface", "the surface", "mark", size=4, line_width=1),
-    line("law", "the law", "here", 2),
-)
-_FORCE_RANGE, _AREA_RANGE = (1e-4, 10.0), (1e-4, 1.3)
-_CURVE_TASK: dict[str, Any] = {
+_OF_CURVE: dict[str, Any] = {
+    "theories": CHOICES["theories"],
     "task": "curve",
     "waits": "the surface is being pressed under every load",
 }
@@ -93,21 +88,19 @@ PANELS = (
         key="stiffness",
         title="Stiffness over force",
         y="stiffness k / (E* L)",
-        lines=(_REDUCED,),
-        theories=CHOICES["theories"],
-        ranges=(_FORCE_RANGE, (1e-3, 3)),
+        lines=(band("line", "1D, mean and range of lines", "light-line", line_width=2.5),),
+        ranges=((1e-4, 10.0), (1e-3, 3)),
         columns=("F̄", "k / (E* L)", "model"),
-        **_CURVE_TASK,
+        **_OF_CURVE,
     ),
     over_force(
         key="area",
         title="Area over force",
         y="real contact area A / A₀",
         lines=(),
-        theories=CHOICES["theories"],
-        ranges=(_FORCE_RANGE, _AREA_RANGE),
+        ranges=((1e-4, 10.0), (1e-4, 1.3)),
         columns=("F̄", "A/A₀", "model"),
-        **_CURVE_TASK,
+        **_OF_CURVE,
     ),
     Panel(
         key="spectrum",
@@ -115,7 +108,10 @@ PANELS = (
         x="waves along the side, q L / 2π",
         y="spectrum C [m⁴]",
         ranges=((0.8, 300.0), (1e-20, 1e-10)),
-        series=_SPECTRUM_SERIES,
+        series=(
+            marks("surface", "the surface", "mark", size=4, line_width=1),
+            line("law", "the law", "here", 2),
+        ),
         columns=("waves along the side", "C [m⁴]", "law [m⁴]"),
         task="contact",
         waits="the spectrum follows with the whole grid",

@@ -53,7 +53,8 @@ def reduced(arguments: Arguments, progress: Progress) -> bytes:
     """Mean stiffness of lines over force, and at the load of the state."""
     state, refused = usable_state(arguments)
     forces = np.unique([*_LINE_FORCES, state.F])
-    stiffness = np.array([_press_bar(each, state, forces) for each in _state_lines(state)])
+    lines = _lines(state.spectrum(state.n), state.n, state.seed)
+    stiffness = np.array([_press_bar(each, state, forces) for each in lines])
     mean = stiffness.mean(axis=0)  # without its interval, which would take as long as all lines
     here = float(mean[np.searchsorted(forces, state.F)])
     rows = [[*row, "1D"] for row in number_rows(forces, mean)]
@@ -183,7 +184,7 @@ def _maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) -> dict[s
 
 def _scatter(state: ExploreState) -> float | None:
     """How far single surfaces scatter about their mean stiffness, where that is known. [1]"""
-    if state.added or state.periodic:
+    if unlike(state) or state.periodic:
         return None
     try:
         return trust_map().at(state.D_f, state.F, 1 / state.roll_off).scatter
@@ -223,14 +224,10 @@ def _message(
     return drawn(header, content.get("panels", {}), maps, above, ["height"] * is_held)
 
 
-def _state_lines(state: ExploreState) -> tuple[rl.Line, ...]:
-    """Lines of the spectrum of a state, with the waves of its surface. [m]"""
-    springs = max(_FEWEST_SPRINGS, _SPRINGS_PER_POINT * state.n)
-    return _lines(state.spectrum(state.n), springs, state.seed)
-
-
 @lru_cache(maxsize=2)
-def _lines(spectrum: rl.SelfAffine, springs: int, seed: int) -> tuple[rl.Line, ...]:
+def _lines(spectrum: rl.SelfAffine, n: int, seed: int) -> tuple[rl.Line, ...]:
+    """Lines of a spectrum, with the waves of a surface on n points along a side. [m]"""
+    springs = max(_FEWEST_SPRINGS, _SPRINGS_PER_POINT * n)
     return tuple(spectrum.line(springs, seed + i) for i in range(LINES))
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -14,14 +13,20 @@ from roughline.contact.sliding import SlidingCurve
 from roughline.engineering.slip import ShearCycles
 from roughline.lab.controls import ControlError, Number, as_code
 from roughline.lab.explore.controls import LoadNumber, poissons_ratio
-from roughline.lab.explore.state import AddedCode, ExploreState, PageAnswer, Physics, StripFigure
+from roughline.lab.explore.state import (
+    AddedCode,
+    ExploreState,
+    PageAnswer,
+    Physics,
+    StripFigure,
+    Words,
+)
 from roughline.lab.explore.words import number_rows
 from roughline.lab.maps import Map
 from roughline.lab.panels import Panel, PanelContent, joined, linear_span, marks
 from roughline.lab.server.tasks import Progress
 from roughline.report.values import figure, up_to_three_digits
 
-_COARSE_POINTS, _FINER_POINTS = 128, 256  # along a side of the surface, at first and then
 _PER_CYCLE = 16
 _MOST_SHARE = 1 - 1e-6  # of what friction bears
 
@@ -122,7 +127,7 @@ class ShearPhysics(Physics):
             series=(
                 joined("rising", "from no shear", "dark-line", size=4, marker="circle"),
                 joined("loop", "a cycle", "here", size=4, marker="square"),
-                marks("here", "largest shear force", "mark", size=13, marker="circle"),
+                marks("here", "", "mark", size=13, marker="circle"),
             ),
             columns=("u/h", "Q/F", "sticks", "way"),
             task="mu",
@@ -157,7 +162,7 @@ class ShearPhysics(Physics):
 
     def further(self, state: ExploreState, refines: bool, progress: Progress) -> PageAnswer:
         """Follow a cycle of the shear force, under the load."""
-        n = state.points(_FINER_POINTS if refines else _COARSE_POINTS)
+        n, is_coarse = state.staged(refines)
         shear = rl.cycle(self.Q * float(state.force(state.F)), per_cycle=_PER_CYCLE, cycles=1)
         curve = state.press(
             state.surface(n),
@@ -173,7 +178,7 @@ class ShearPhysics(Physics):
         content = {
             "panels": {"loop": _loop(cycle, n)},
             "strip": list(_words(cycle, n)),
-            "is_coarse": n < state.points(_FINER_POINTS),
+            "is_coarse": is_coarse,
         }
         return content, {"stick": _stick_map(cycle)}
 
@@ -220,7 +225,7 @@ def _loop(cycle: ShearCycles, n: int) -> PanelContent:
     )
 
 
-def _words(cycle: ShearCycles, n: int) -> Iterator[dict[str, str]]:
+def _words(cycle: ShearCycles, n: int) -> Words:
     """What the shear force does, and what is lost."""
 
     def written(value: float, unit: str) -> str:

@@ -34,8 +34,13 @@ SURFACE_KEYS = ("D_f", "roll_off", "cutoff", "rms", "h", "slope", "seed", "n")
 
 CURVE_POINTS = 256
 """Points along a side of the surface whose whole curve is computed."""
+_COARSE_POINTS = 128  # of what is first followed on fewer
 _LARGEST_FORCE_SHARE = 0.9  # of the force that all of the area bears, where curves end
 
+Panels = dict[str, PanelContent]
+"""What panels show, by their keys."""
+Words = Iterable[dict[str, str]]
+"""Numbers of the answer strip in words."""
 PageAnswer = tuple[dict[str, Any], Mapping[str, Map]]
 """What a task tells the page, and maps."""
 
@@ -127,15 +132,11 @@ class Physics:
         """What its panels show of loads, by their keys."""
         return {}
 
-    def beside_curve(
-        self, pressed: rl.SurfaceCurve, state: ExploreState
-    ) -> dict[str, PanelContent]:
+    def beside_curve(self, pressed: rl.SurfaceCurve, state: ExploreState) -> Panels:
         """What it adds to panels of the curve, by their keys."""
         return {}
 
-    def words(
-        self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState
-    ) -> Iterable[dict[str, str]]:
+    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> Words:
         """Its numbers of the answer strip at the load."""
         return ()
 
@@ -274,6 +275,11 @@ class ExploreState:
     def measures(self) -> tuple[rl.Measure, ...]:
         """What is measured of every load."""
         return tuple(measure for each in self.added for measure in each.measures())
+
+    def staged(self, refines: bool) -> tuple[int, bool]:
+        """Points along a side of what is followed twice, and whether finer ones come later."""
+        coarse, finer = self.points(_COARSE_POINTS), self.points(CURVE_POINTS)
+        return (finer, False) if refines else (coarse, coarse < finer)
 
     def points(self, fewest: int) -> int:
         """The fewest points along a side, from so many on, that resolve all, if any do."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -11,7 +10,7 @@ from numpy.typing import NDArray
 
 import roughline as rl
 from roughline.contact.quantities import RESOLVED_FROM
-from roughline.lab.explore.state import ExploreState, StripFigure
+from roughline.lab.explore.state import ExploreState, StripFigure, Words
 from roughline.margins.grid import intervals_of_grid
 from roughline.report.values import figure, up_to_three_digits
 from roughline.units import supported_digits
@@ -68,7 +67,7 @@ def unlike(state: ExploreState) -> str:
 
 def contact_words(
     pressed: rl.SurfaceCurve, fields: rl.Fields | None, surface: rl.Surface, state: ExploreState
-) -> Iterator[dict[str, str]]:
+) -> Words:
     """What the full model gives at the load."""
     if not pressed.converged[0] or fields is None:
         unsolved = f"The load was not solved: {rl.Status(pressed.status[0]).reason}"
@@ -87,30 +86,27 @@ def contact_words(
         yield from each.words(pressed, fields, state)
 
 
-def _with_intervals(
-    pressed: rl.SurfaceCurve, in_contact: float, state: ExploreState
-) -> Iterator[dict[str, str]]:
+def _with_intervals(pressed: rl.SurfaceCurve, in_contact: float, state: ExploreState) -> Words:
     """Stiffness, area and pressure, with what finer grids may change."""
     intervals, unsure = intervals_of_grid(pressed), not pressed.resolved[0]
     stiffness, area = float(pressed.stiffness[0]), float(pressed.area_fraction_corrected[0])
     of_k = first(intervals.stiffness) if intervals else None
     of_area = first(intervals.area) if intervals else None
     sticks = pressed.law is not None and not pressed.law.only_pushes
+    rounded, below = stiffness_with_ends(stiffness, of_k, state)
     yield _STIFFNESS.said(
-        rounded_value(stiffness, of_k, "N/m") + (" *" if unsure else ""),
-        beside_stiffness(stiffness, of_k, state),
+        rounded + " *" * unsure,
+        below,
         " It is that at a given reach of the pull: along a branch the slope is less." * sticks
         + f" Fewer than {RESOLVED_FROM} cells touch: the grid decides." * unsure,
     )
-    yield _AREA.said(rounded_value(area, of_area, "%"), rounded_ends(area, of_area, "%"))
+    yield _AREA.said(*with_ends(area, of_area, "%"))
     ends = None
     if of_area and of_area[0] > 0:
         ends = in_contact * area / of_area[1], in_contact * area / of_area[0]
-    over = f"{figure(in_contact / state.E_star)} E*"
-    over += f", {figure(in_contact / pressed.hardness)} H" if pressed.hardness else ""
-    yield _PRESSURE.said(
-        rounded_value(in_contact, ends, "Pa"), after_ends(in_contact, ends, "Pa", over)
-    )
+    over = [f"{figure(in_contact / state.E_star)} E*"]
+    over += [f"{figure(in_contact / pressed.hardness)} H"] if pressed.hardness else []
+    yield _PRESSURE.said(*with_ends(in_contact, ends, "Pa", *over))
 
 
 def status(pressed: rl.SurfaceCurve, n: int, seconds: float, *, is_coarse: bool) -> str:
@@ -122,26 +118,20 @@ def status(pressed: rl.SurfaceCurve, n: int, seconds: float, *, is_coarse: bool)
     )
 
 
-def rounded_value(value: float, ends: tuple[float, float] | None, unit: str) -> str:
-    """A value with the digits that its interval supports, and its unit."""
-    return up_to_three_digits(value, ends, unit).partition(" (")[0]
+def with_ends(
+    value: float, ends: tuple[float, float] | None, unit: str, *more: str
+) -> tuple[str, str]:
+    """A value with the digits that its interval supports; and that, as rounded, with more."""
+    rounded, bracket, interval = up_to_three_digits(value, ends, unit).partition(" (")
+    return rounded, ", ".join(filter(None, (bracket.strip() + interval, *more)))
 
 
-def rounded_ends(value: float, ends: tuple[float, float] | None, unit: str) -> str:
-    """The interval of a value in brackets, rounded as the value is; nothing where there is none."""
-    _, bracket, interval = up_to_three_digits(value, ends, unit).partition(" (")
-    return bracket.strip() + interval
-
-
-def after_ends(value: float, ends: tuple[float, float] | None, unit: str, more: str) -> str:
-    """The interval of a value, and more of it."""
-    return ", ".join(filter(None, (rounded_ends(value, ends, unit), more)))
-
-
-def beside_stiffness(value: float, ends: tuple[float, float] | None, state: ExploreState) -> str:
-    """The interval of a stiffness, and what it is over the modulus and the side."""
+def stiffness_with_ends(
+    value: float, ends: tuple[float, float] | None, state: ExploreState
+) -> tuple[str, str]:
+    """A stiffness; and its interval, and what it is over the modulus and the side."""
     over_side = figure(state.stiffness_bars(value), supported_digits(value, ends, _DIGITS))
-    return after_ends(value, ends, "N/m", f"k / (E* L) {over_side}")
+    return with_ends(value, ends, "N/m", f"k / (E* L) {over_side}")
 
 
 def first(ends: Any) -> tuple[float, float] | None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -11,8 +10,16 @@ import numpy as np
 import roughline as rl
 from roughline.lab.controls import Number, as_code
 from roughline.lab.explore.panels import BACK, selected_points
-from roughline.lab.explore.state import AddedCode, ExploreState, PageAnswer, Physics, StripFigure
-from roughline.lab.explore.words import beside_stiffness, first, load_rows, rounded_value
+from roughline.lab.explore.state import (
+    AddedCode,
+    ExploreState,
+    PageAnswer,
+    Panels,
+    Physics,
+    StripFigure,
+    Words,
+)
+from roughline.lab.explore.words import first, load_rows, stiffness_with_ends
 from roughline.lab.panels import PanelContent, marks
 from roughline.lab.server.tasks import Progress
 from roughline.margins.grid import intervals_of_grid
@@ -92,26 +99,18 @@ class YieldingPhysics(Physics):
         """No more than the hardness."""
         return rl.Yielding(self.hardness(state))
 
-    def beside_curve(
-        self, pressed: rl.SurfaceCurve, state: ExploreState
-    ) -> dict[str, PanelContent]:
+    def beside_curve(self, pressed: rl.SurfaceCurve, state: ExploreState) -> Panels:
         """The stiffness on unloading of every load."""
-        forces, values = (
-            state.force_bars(pressed),
-            state.stiffness_bars(pressed.unloading_stiffness),
-        )
+        forces = state.force_bars(pressed)
+        values = state.stiffness_bars(pressed.unloading_stiffness)
         rows = load_rows(forces, values, pressed, "3D, on unloading")
         return {"stiffness": PanelContent({"unloading": selected_points(forces, values)}, rows)}
 
-    def words(
-        self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState
-    ) -> Iterator[dict[str, str]]:
+    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> Words:
         """Stiffness on unloading, share of the contact that yields, and indentation."""
         intervals, unloading = intervals_of_grid(pressed), float(pressed.unloading_stiffness[0])
         ends = first(intervals.unloading) if intervals else None
-        yield _UNLOADING.said(
-            rounded_value(unloading, ends, "N/m"), beside_stiffness(unloading, ends, state)
-        )
+        yield _UNLOADING.said(*stiffness_with_ends(unloading, ends, state))
         plastic, hardness = float(pressed.plastic_fraction[0]), self.hardness(state)
         in_unit = up_to_three_digits(hardness, None, "Pa")
         yield _PLASTIC.said(f"{figure(100 * plastic)}%", f"H {in_unit}")

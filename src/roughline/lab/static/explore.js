@@ -349,7 +349,7 @@ class Explore {
   #placeCursors() {
     if (!this.#plots) return;
     this.#fromCursor = true;
-    for (const {key, drags} of this.#cursors) if (!this.#panelOf(key).hidden) this.#plots.model(`${key} cursor`).location = this.#numbers[drags];
+    for (const {key, drags} of this.#cursors) if (!this.#panelOf(key).hidden) this.#plots.model(`${key} cursor`).location = this.#numbers[drags] ?? 0;
     this.#fromCursor = false;
   }
 
