@@ -57,7 +57,8 @@ class Map:
     @property
     def look(self) -> dict[str, Any]:
         """How it is drawn, without its numbers."""
-        look = {name: value for name, value in vars(self).items() if name != "values"}
+        unsent = ("values", "called")
+        look = {name: value for name, value in vars(self).items() if name not in unsent}
         return look | {"meanings": self.meanings}
 
 
