@@ -34,4 +34,4 @@ class Softer(Physics):
         return rl.Homogeneous(state.E_star / self.times, periodic=state.periodic)
 
     def words(self, pressed, fields, state):
-        yield self.strip[0].said(f"{self.times:g}")
+        yield self.strip[0].in_words(f"{self.times:g}")

@@ -20,7 +20,7 @@ from roughline.lab.explore.state import (
     PageAnswer,
     Physics,
     StripFigure,
-    Words,
+    StripWords,
 )
 from roughline.lab.explore.words import number_rows
 from roughline.lab.maps import Map
@@ -171,15 +171,15 @@ class AdhesionPhysics(Physics):
         """Whether the zone that pulls has enough cells."""
         return self.zone(state, n) >= RESOLVED_FROM
 
-    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> Words:
+    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> StripWords:
         """Where bodies pull each other at the load, and how well the grid resolves that."""
-        yield _PULLING.said(f"{figure(100 * float(pressed.pulling_fraction[0]))}%")
+        yield _PULLING.in_words(f"{figure(100 * float(pressed.pulling_fraction[0]))}%")
         cells = f"{figure(self.zone(state, len(fields.gap)), 2)} cells"
         if self.is_resolved(state, len(fields.gap)):
-            yield _ZONE.said(cells)
+            yield _ZONE.in_words(cells)
         else:
             needed = f"{RESOLVED_FROM:g} are needed: a longer range, or a finer grid"
-            yield _ZONE.said(f"{cells} *", needed)
+            yield _ZONE.in_words(f"{cells} *", needed)
 
     def added_maps(self, fields: rl.Fields, state: ExploreState) -> dict[str, Map]:
         """Where bodies touch, and where they pull each other."""
@@ -299,12 +299,12 @@ def _pull_off(found: _BothWays, state: ExploreState) -> str:
     return figure(found.pull / state.force(1.0)) if math.isfinite(found.pull) else "not known"
 
 
-def _words_of_the_way_back(found: _BothWays, state: ExploreState, n: int) -> Words:
+def _words_of_the_way_back(found: _BothWays, state: ExploreState, n: int) -> StripWords:
     """The contact on the way back, and the pull-off."""
     area = float(found.by_forces.area_fraction_corrected[_LOAD_BACK])
-    yield _RETREAT.said(f"{figure(100 * area)}%", f"on {n}² points")
+    yield _RETREAT.in_words(f"{figure(100 * area)}%", f"on {n}² points")
     below = "the grid does not resolve the pull"
     if math.isfinite(found.pull):
         pressure = up_to_three_digits(found.pull / state.length**2, None, "Pa")
         below = f"{up_to_three_digits(found.pull, None, 'N')}, {pressure}, on {n}² points"
-    yield _PULL_OFF.said(_pull_off(found, state), below)
+    yield _PULL_OFF.in_words(_pull_off(found, state), below)

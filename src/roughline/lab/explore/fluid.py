@@ -17,7 +17,7 @@ from roughline.lab.explore.state import (
     PageAnswer,
     Physics,
     StripFigure,
-    Words,
+    StripWords,
 )
 from roughline.lab.explore.words import number_rows
 from roughline.lab.maps import Map, flux_map, throttled_at
@@ -99,7 +99,7 @@ class FluidPhysics(Physics):
         measured = pressed.measured.get(_APERTURE.name)
         return {} if measured is None else {"aperture": measured.values / pressed.rms_height}
 
-    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> Words:
+    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> StripWords:
         """What comes through at the load, and the channel that carries most of it."""
         flow, measured, ends = _flow(fields), pressed.measured[_APERTURE.name], None
         aperture = flow.hydraulic_aperture
@@ -107,18 +107,18 @@ class FluidPhysics(Physics):
             ends = float(measured.low[0]), float(measured.high[0])
         if flow.is_sealed:
             at_most = f"at most {engineering(ends[1], 'm', 3)}" if ends and ends[1] > 0 else ""
-            yield _OPENING.said(_SEALED, at_most)
+            yield _OPENING.in_words(_SEALED, at_most)
             return
         doubt = flow.validity or ("" if flow.converged else "the flow did not converge")
         value = figure(aperture / pressed.rms_height, supported_digits(aperture, ends, 3))
-        yield _OPENING.said(
+        yield _OPENING.in_words(
             f"{value} h{' *' if doubt else ''}",
             up_to_three_digits(aperture, ends, "m"),
             f" But {doubt}." if doubt else "",
         )
         x, y = map(figure, throttled_at(flow))
         gap = figure(float(flow.gap[flow.constriction]) / pressed.rms_height)
-        yield _CHANNEL.said(
+        yield _CHANNEL.in_words(
             f"{figure(100 * flow.largest_share)}%" if flow.largest_share else "none",
             f"ring: x {x} L, y {y} L, gap {gap} h",
         )

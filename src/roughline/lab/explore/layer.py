@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import roughline as rl
 from roughline.lab.controls import ControlError, Number, as_code
 from roughline.lab.explore.controls import over_side, poissons_ratio
-from roughline.lab.explore.state import AddedCode, ExploreState, Physics, StripFigure, Words
+from roughline.lab.explore.state import AddedCode, ExploreState, Physics, StripFigure, StripWords
 from roughline.report.values import figure, up_to_three_digits
 
 _THINNEST_LAYER = 0.5  # of a cell, below which the library refuses a layer
@@ -102,12 +102,12 @@ class LayerPhysics(Physics):
         """Whether it is half a cell thick."""
         return self.t * n >= _THINNEST_LAYER
 
-    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> Words:
+    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> StripWords:
         """Its thickness on the grid, and its modulus."""
         thickness = up_to_three_digits(self.t * state.length, None, "m")
         modulus = up_to_three_digits(self.E_l * state.E_star, None, "Pa")
         cells = self.t * len(fields.gap)
-        yield _LAYER.said(f"{figure(cells)} cells", f"{thickness}, E*_l {modulus}")
+        yield _LAYER.in_words(f"{figure(cells)} cells", f"{thickness}, E*_l {modulus}")
 
     def code(self, state: ExploreState) -> AddedCode:
         """The layer on its base, under a rigid surface."""

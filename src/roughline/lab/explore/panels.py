@@ -77,7 +77,7 @@ def curve_note(pressed: rl.SurfaceCurve, n: int) -> str:
     return f"marks of the curve on {n}² points{unsure}{unsolved}"
 
 
-_OF_CURVE: dict[str, Any] = {
+_CURVE_TASK: dict[str, Any] = {
     "theories": CHOICES["theories"],
     "task": "curve",
     "waits": "the surface is being pressed under every load",
@@ -91,7 +91,7 @@ PANELS = (
         lines=(band("line", "1D, mean and range of lines", "light-line", line_width=2.5),),
         ranges=((1e-4, 10.0), (1e-3, 3)),
         columns=("F̄", "k / (E* L)", "model"),
-        **_OF_CURVE,
+        **_CURVE_TASK,
     ),
     over_force(
         key="area",
@@ -100,7 +100,7 @@ PANELS = (
         lines=(),
         ranges=((1e-4, 10.0), (1e-4, 1.3)),
         columns=("F̄", "A/A₀", "model"),
-        **_OF_CURVE,
+        **_CURVE_TASK,
     ),
     Panel(
         key="spectrum",

@@ -19,7 +19,7 @@ from roughline.lab.explore.state import (
     PageAnswer,
     Physics,
     StripFigure,
-    Words,
+    StripWords,
 )
 from roughline.lab.explore.words import number_rows
 from roughline.lab.maps import Map
@@ -151,13 +151,17 @@ class ShearPhysics(Physics):
             raise ControlError(
                 "shear on a layer is solved for a surface that is repeated alone: make it "
                 "periodic, or take the layer or the shear away",
-                *("mu", "t", "boundary"),
+                "mu",
+                "t",
+                "boundary",
             ) from None
         if self.mu * _MOST_SHARE < self.Q:
             raise ControlError(
                 f"shear of {self.Q:.4g} F is not less than μ F = {self.mu:.4g} F, under which the "
                 "bodies slide: give less, or more friction",
-                *("Q", "mu", "F"),
+                "Q",
+                "mu",
+                "F",
             )
 
     def further(self, state: ExploreState, refines: bool, progress: Progress) -> PageAnswer:
@@ -225,7 +229,7 @@ def _loop(cycle: ShearCycles, n: int) -> PanelContent:
     )
 
 
-def _words(cycle: ShearCycles, n: int) -> Words:
+def _words(cycle: ShearCycles, n: int) -> StripWords:
     """What the shear force does, and what is lost."""
 
     def written(value: float, unit: str) -> str:
@@ -233,13 +237,13 @@ def _words(cycle: ShearCycles, n: int) -> Words:
 
     slide = f"{figure(cycle.displacement / cycle.curve.rms_height)} h"
     slip = f"of it {written(cycle.micro_slip, 'm')} slip"
-    yield _SLIDE.said(slide, f"{written(cycle.displacement, 'm')}, {slip}, on {n}² points")
+    yield _SLIDE.in_words(slide, f"{written(cycle.displacement, 'm')}, {slip}, on {n}² points")
     going_on = f"on more shear {written(cycle.stiffness_on, 'N/m')}"
-    yield _TANGENTIAL.said(written(cycle.stiffness_before, "N/m"), going_on)
-    yield _LOST.said(written(cycle.energy, "J"), f"loss factor {figure(cycle.loss_factor)}")
+    yield _TANGENTIAL.in_words(written(cycle.stiffness_before, "N/m"), going_on)
+    yield _LOST.in_words(written(cycle.energy, "J"), f"loss factor {figure(cycle.loss_factor)}")
     share, limit = cycle.sticking_share, f"slides under {written(cycle.limit, 'N')}"
     assert share is not None
-    yield _STUCK.said(f"{figure(100 * share)}%", limit)
+    yield _STUCK.in_words(f"{figure(100 * share)}%", limit)
 
 
 def _stick_map(cycle: ShearCycles) -> Map:

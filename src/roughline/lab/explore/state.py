@@ -37,9 +37,9 @@ CURVE_POINTS = 256
 _COARSE_POINTS = 128  # of what is first followed on fewer
 _LARGEST_FORCE_SHARE = 0.9  # of the force that all of the area bears, where curves end
 
-Panels = dict[str, PanelContent]
+FilledPanels = dict[str, PanelContent]
 """What panels show, by their keys."""
-Words = Iterable[dict[str, str]]
+StripWords = Iterable[dict[str, str]]
 """Numbers of the answer strip in words."""
 PageAnswer = tuple[dict[str, Any], Mapping[str, Map]]
 """What a task tells the page, and maps."""
@@ -54,10 +54,10 @@ class StripFigure:
     meaning: str
     after: str = ""  # key of that which it follows
 
-    def said(self, value: str, below: str = "", more: str = "") -> dict[str, str]:
+    def in_words(self, value: str, below: str = "", more: str = "") -> dict[str, str]:
         """It in words, what stands below, and what more it means."""
-        said = {"key": self.key, "symbol": self.symbol, "value": value}
-        return said | {"below": below, "meaning": self.meaning + more}
+        words = {"key": self.key, "symbol": self.symbol, "value": value}
+        return words | {"below": below, "meaning": self.meaning + more}
 
 
 @dataclass(frozen=True)
@@ -132,11 +132,11 @@ class Physics:
         """What its panels show of loads, by their keys."""
         return {}
 
-    def beside_curve(self, pressed: rl.SurfaceCurve, state: ExploreState) -> Panels:
+    def beside_curve(self, pressed: rl.SurfaceCurve, state: ExploreState) -> FilledPanels:
         """What it adds to panels of the curve, by their keys."""
         return {}
 
-    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> Words:
+    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> StripWords:
         """Its numbers of the answer strip at the load."""
         return ()
 

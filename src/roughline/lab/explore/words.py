@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 import roughline as rl
 from roughline.contact.quantities import RESOLVED_FROM
-from roughline.lab.explore.state import ExploreState, StripFigure, Words
+from roughline.lab.explore.state import ExploreState, StripFigure, StripWords
 from roughline.margins.grid import intervals_of_grid
 from roughline.report.values import figure, up_to_three_digits
 from roughline.units import supported_digits
@@ -57,7 +57,7 @@ STRIP = (_STIFFNESS, _AREA, _PRESSURE, _DEPTH, _FORCE, _ROUGHNESS)
 def line_words(state: ExploreState, stiffness: float) -> dict[str, str]:
     """What the reduced model gives at the load."""
     in_unit = up_to_three_digits(stiffness * state.E_star * state.length, None, "N/m")
-    return _LINES.said(in_unit, unlike(state))
+    return _LINES.in_words(in_unit, unlike(state))
 
 
 def unlike(state: ExploreState) -> str:
@@ -67,26 +67,26 @@ def unlike(state: ExploreState) -> str:
 
 def contact_words(
     pressed: rl.SurfaceCurve, fields: rl.Fields | None, surface: rl.Surface, state: ExploreState
-) -> Words:
+) -> StripWords:
     """What the full model gives at the load."""
     if not pressed.converged[0] or fields is None:
         unsolved = f"The load was not solved: {rl.Status(pressed.status[0]).reason}"
-        yield replace(_STIFFNESS, meaning=unsolved).said("not solved")
+        yield replace(_STIFFNESS, meaning=unsolved).in_words("not solved")
         return
     in_contact = float(fields.pressure[fields.contact].mean())
     yield from _with_intervals(pressed, in_contact, state)
     height, force, depth = surface.rms_height, float(pressed.force[0]), float(pressed.depth[0])
-    yield _DEPTH.said(f"{figure(depth / height)} h", up_to_three_digits(depth, None, "m"))
+    yield _DEPTH.in_words(f"{figure(depth / height)} h", up_to_three_digits(depth, None, "m"))
     mean = up_to_three_digits(force / state.length**2, None, "Pa")
-    yield _FORCE.said(up_to_three_digits(force, None, "N"), f"{mean} over the nominal area")
-    yield _ROUGHNESS.said(
+    yield _FORCE.in_words(up_to_three_digits(force, None, "N"), f"{mean} over the nominal area")
+    yield _ROUGHNESS.in_words(
         up_to_three_digits(height, None, "m"), f"slope {figure(surface.rms_slope)}"
     )
     for each in state.added:
         yield from each.words(pressed, fields, state)
 
 
-def _with_intervals(pressed: rl.SurfaceCurve, in_contact: float, state: ExploreState) -> Words:
+def _with_intervals(pressed: rl.SurfaceCurve, in_contact: float, state: ExploreState) -> StripWords:
     """Stiffness, area and pressure, with what finer grids may change."""
     intervals, unsure = intervals_of_grid(pressed), not pressed.resolved[0]
     stiffness, area = float(pressed.stiffness[0]), float(pressed.area_fraction_corrected[0])
@@ -94,19 +94,19 @@ def _with_intervals(pressed: rl.SurfaceCurve, in_contact: float, state: ExploreS
     of_area = first(intervals.area) if intervals else None
     sticks = pressed.law is not None and not pressed.law.only_pushes
     rounded, below = stiffness_with_ends(stiffness, of_k, state)
-    yield _STIFFNESS.said(
+    yield _STIFFNESS.in_words(
         rounded + " *" * unsure,
         below,
         " It is that at a given reach of the pull: along a branch the slope is less." * sticks
         + f" Fewer than {RESOLVED_FROM} cells touch: the grid decides." * unsure,
     )
-    yield _AREA.said(*with_ends(area, of_area, "%"))
+    yield _AREA.in_words(*with_ends(area, of_area, "%"))
     ends = None
     if of_area and of_area[0] > 0:
         ends = in_contact * area / of_area[1], in_contact * area / of_area[0]
     over = [f"{figure(in_contact / state.E_star)} E*"]
     over += [f"{figure(in_contact / pressed.hardness)} H"] if pressed.hardness else []
-    yield _PRESSURE.said(*with_ends(in_contact, ends, "Pa", *over))
+    yield _PRESSURE.in_words(*with_ends(in_contact, ends, "Pa", *over))
 
 
 def status(pressed: rl.SurfaceCurve, n: int, seconds: float, *, is_coarse: bool) -> str:

@@ -13,11 +13,11 @@ from roughline.lab.explore.panels import BACK, selected_points
 from roughline.lab.explore.state import (
     AddedCode,
     ExploreState,
+    FilledPanels,
     PageAnswer,
-    Panels,
     Physics,
     StripFigure,
-    Words,
+    StripWords,
 )
 from roughline.lab.explore.words import first, load_rows, stiffness_with_ends
 from roughline.lab.panels import PanelContent, marks
@@ -99,24 +99,24 @@ class YieldingPhysics(Physics):
         """No more than the hardness."""
         return rl.Yielding(self.hardness(state))
 
-    def beside_curve(self, pressed: rl.SurfaceCurve, state: ExploreState) -> Panels:
+    def beside_curve(self, pressed: rl.SurfaceCurve, state: ExploreState) -> FilledPanels:
         """The stiffness on unloading of every load."""
         forces = state.force_bars(pressed)
         values = state.stiffness_bars(pressed.unloading_stiffness)
         rows = load_rows(forces, values, pressed, "3D, on unloading")
         return {"stiffness": PanelContent({"unloading": selected_points(forces, values)}, rows)}
 
-    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> Words:
+    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> StripWords:
         """Stiffness on unloading, share of the contact that yields, and indentation."""
         intervals, unloading = intervals_of_grid(pressed), float(pressed.unloading_stiffness[0])
         ends = first(intervals.unloading) if intervals else None
-        yield _UNLOADING.said(*stiffness_with_ends(unloading, ends, state))
+        yield _UNLOADING.in_words(*stiffness_with_ends(unloading, ends, state))
         plastic, hardness = float(pressed.plastic_fraction[0]), self.hardness(state)
         in_unit = up_to_three_digits(hardness, None, "Pa")
-        yield _PLASTIC.said(f"{figure(100 * plastic)}%", f"H {in_unit}")
+        yield _PLASTIC.in_words(f"{figure(100 * plastic)}%", f"H {in_unit}")
         indentation = float(pressed.indentation[0])
         in_unit = up_to_three_digits(indentation, None, "m")
-        yield _INDENTATION.said(f"{figure(indentation / pressed.rms_height)} h", in_unit)
+        yield _INDENTATION.in_words(f"{figure(indentation / pressed.rms_height)} h", in_unit)
 
     def further(self, state: ExploreState, refines: bool, progress: Progress) -> PageAnswer:
         """Follow the way back from the load to none."""
