@@ -187,18 +187,18 @@ def metres_per(unit: str) -> float:
         raise UnitError(f"is {shown(unit)}; {needed}", "unit") from error
 
 
-def load_in_newtons(text: str, area: float) -> float:
+def load_in_newtons(text: str, area: float, name: str = "loads") -> float:
     """Read a load: a force such as "10 N", or a pressure such as "2 MPa" on a nominal area [m²]."""
-    refuse_decimal_comma(text, "loads")
+    refuse_decimal_comma(text, name)
     for unit, factor in (("N", 1.0), ("Pa", area)):
         try:
-            return factor * in_si(text, unit, "loads")
+            return factor * in_si(text, unit, name)
         except UnitError:
             continue
     raise UnitError(
         f'is {shown(text)}; give a total force such as "10 N", or a mean pressure over the nominal '
         'area such as "2 MPa"',
-        "loads",
+        name,
     )
 
 

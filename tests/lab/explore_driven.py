@@ -1,6 +1,8 @@
 """The view Explore as a test drives it: what is drawn, what is said, what is set."""
 
-from urllib.parse import parse_qsl, urlsplit
+from urllib.parse import parse_qsl, urlencode, urlsplit
+
+import numpy as np
 
 SMALL = "?view=explore&v=1&D_f=2.4&seed=3&n=64&F=0.2&cutoff=0.0625"
 
@@ -84,3 +86,54 @@ def address(page):
 def sentence(page, key):
     """Return what stands in red at a control."""
     return page.locator(f'#explore [data-error="{key}"]')
+
+
+def model(page, name, attribute):
+    """Return an attribute of what Bokeh has by a name."""
+    return page.evaluate(
+        """([name, attribute]) => {
+            const made = Bokeh.documents.find((each) => each.get_model_by_name(name));
+            return made.get_model_by_name(name)[attribute];
+        }""",
+        [name, attribute],
+    )
+
+
+def source(page, name):
+    """Return x and y of what is drawn."""
+    return page.evaluate(
+        """(name) => {
+            const made = Bokeh.documents.find((each) => each.get_model_by_name(name));
+            const {x, y} = made.get_model_by_name(name).data;
+            return [[...x], [...y]];
+        }""",
+        name,
+    )
+
+
+def assert_linked(page, pages, tick, panel, at_rest):
+    """Check that a link to the page shows the same."""
+    other = pages.open("?" + urlencode(address(page)))
+    at_rest(other)
+    assert strip(other) == strip(page)
+    assert table(other, panel) == table(page, panel)
+    np.testing.assert_array_equal(image(other, "contact"), image(page, "contact"))
+    shown = '#explore [data-key="shown"]'
+    assert other.input_value(shown) == page.input_value(shown)
+    assert other.is_checked(f"#explore-adds-{tick}")
+    assert other.is_visible(f"#plot-explore-{panel}")
+    other.context.close()
+
+
+def assert_taken_away(page, tick, panel, before):
+    """Untick a physics, and check that nothing is left of it but what was there before."""
+    (*_, last) = strip(page).keys() - before.keys()
+    page.uncheck(f"#explore-adds-{tick}")
+    settled(page, points=64)
+    page.wait_for_function(f"() => !document.querySelector('[data-answer={last}]')")
+    assert strip(page) == before
+    assert not page.is_visible(f"#tab-{panel}")
+    assert page.is_visible("#plot-explore-area")
+    assert page.input_value('#explore [data-key="shown"]') == "area"
+    assert set(image(page, "contact")) == {0, 1}
+    assert tick not in address(page)

@@ -4,8 +4,7 @@ from dataclasses import dataclass
 
 import roughline as rl
 from roughline.lab.controls import Number
-from roughline.lab.explore.state import Physics
-from roughline.lab.explore.words import item
+from roughline.lab.explore.state import Physics, StripFigure
 
 
 @dataclass(frozen=True)
@@ -29,10 +28,10 @@ class Softer(Physics):
         ),
     )
     unlike = "on the harder body"
-    strip = {"times": "area"}  # noqa: RUF012
+    strip = (StripFigure("times", "s", "How many times the body is softer.", after="area"),)
 
     def half_space(self, state):
         return rl.Homogeneous(state.E_star / self.times, periodic=state.periodic)
 
     def words(self, pressed, fields, state):
-        return [item("times", "s", f"{self.times:g}", "How many times the body is softer.")]
+        yield self.strip[0].in_words(f"{self.times:g}")

@@ -1,14 +1,27 @@
 """Bodies that stick in Explore, ticked, refused, dragged, linked and saved as a person would."""
 
+from functools import partial
 from urllib.parse import urlencode
 
 import numpy as np
 import pytest
 
-from lab.explore_driven import address, drawn, image, sentence, settled, strip, table, typed
+from lab.explore_driven import (
+    address,
+    assert_linked,
+    assert_taken_away,
+    drawn,
+    image,
+    model,
+    sentence,
+    settled,
+    source,
+    strip,
+    table,
+    typed,
+)
 from lab.looks import texts_stand_out
 from lab.test_explore_adhesion import LAW, STICKS
-from lab.test_explore_fluid_page import source
 from roughline import press
 from roughline.lab.explore.reading import read_state
 
@@ -21,16 +34,6 @@ def at_rest(page, **wanted):
     settled(page, **wanted)
     drawn(page, "cycle", what="w")
     page.wait_for_selector("#explore .cancel", state="hidden")
-
-
-def model(page, name, attribute):
-    return page.evaluate(
-        """([name, attribute]) => {
-            const made = Bokeh.documents.find((each) => each.get_model_by_name(name));
-            return made.get_model_by_name(name)[attribute];
-        }""",
-        [name, attribute],
-    )
 
 
 def both_ways_are_shown(page, elastic):
@@ -53,16 +56,6 @@ def both_ways_are_shown(page, elastic):
     surface = read_state(STICKS).surface(64)
     there = press(surface, E_star=110e9, law=LAW, forces=[0.08 * 110], fields=True)
     assert wider > there.fields[0].contact.sum()
-
-
-def link_shows_the_same(page, pages):
-    other = pages.open("?" + urlencode(address(page)))
-    at_rest(other, points=64)
-    assert other.is_checked("#explore-adds-w")
-    assert other.is_visible("#plot-explore-cycle")
-    assert strip(other) == strip(page)
-    assert table(other, "cycle") == table(page, "cycle")
-    other.context.close()
 
 
 def range_that_the_grid_does_not_resolve_is_refused_and_the_rest_lives(page):
@@ -106,16 +99,6 @@ def line_of_the_load_is_dragged(page):
     )
 
 
-def both_ways_are_gone(page, elastic):
-    page.wait_for_function("() => !document.querySelector('[data-answer=pull_off]')")
-    assert strip(page) == elastic
-    assert not page.is_visible("#tab-cycle")
-    assert page.is_visible("#plot-explore-area")
-    assert set(image(page, "contact")) == {0, 1}
-    assert page.input_value('#explore [data-key="shown"]') == "area"
-    assert "w" not in address(page)
-
-
 @pytest.mark.parametrize(("theme", "all_of_it"), [("light", False), ("dark", True)])
 def test_walk_over_bodies_that_stick(pages, theme, all_of_it):
     page = pages.open(WITHOUT, theme=theme)
@@ -128,14 +111,12 @@ def test_walk_over_bodies_that_stick(pages, theme, all_of_it):
     both_ways_are_shown(page, elastic)
     texts_stand_out(page, "explore")
     if all_of_it:
-        link_shows_the_same(page, pages)
+        assert_linked(page, pages, "w", "cycle", partial(at_rest, points=64))
         page.select_option("#saved", "curve.csv")
         with page.expect_download() as coming:
             page.click("#save")
         assert coming.value.suggested_filename == "curve.csv"
-    page.uncheck("#explore-adds-w")
-    settled(page, points=64)
-    both_ways_are_gone(page, elastic)
+    assert_taken_away(page, "w", "cycle", elastic)
     page.context.close()
 
 

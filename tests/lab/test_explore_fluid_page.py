@@ -1,12 +1,24 @@
 """A fluid in Explore, ticked, hovered, touched and dragged as a person would."""
 
-from urllib.parse import urlencode
+from functools import partial
 
 import numpy as np
 import pytest
 
 import roughline as rl
-from lab.explore_driven import SMALL, address, drawn, image, settled, strip, table, typed
+from lab.explore_driven import (
+    SMALL,
+    address,
+    assert_linked,
+    assert_taken_away,
+    drawn,
+    image,
+    settled,
+    source,
+    strip,
+    table,
+    typed,
+)
 from lab.looks import texts_stand_out
 from lab.test_explore_page import E_STAR, HEIGHT, LENGTH, SCALE, box_of, spectrum
 from lab.unpacked import HALF_A_STEP
@@ -24,18 +36,6 @@ def at_rest(page, **wanted):
 def pressed(force_bar=0.2):
     return rl.press(
         spectrum().surface(64, 3), E_star=E_STAR, forces=[force_bar * SCALE], fields=True
-    )
-
-
-def source(page, name):
-    """Return x and y of what is drawn."""
-    return page.evaluate(
-        """(name) => {
-            const made = Bokeh.documents.find((each) => each.get_model_by_name(name));
-            const {x, y} = made.get_model_by_name(name).data;
-            return [[...x], [...y]];
-        }""",
-        name,
     )
 
 
@@ -122,29 +122,6 @@ def sealed_loads_are_shown(page):
     assert [row for row in table(page, "aperture") if row[1] == "sealed" and row[2] == "3D"]
 
 
-def link_shows_the_same(page, pages):
-    other = pages.open("?" + urlencode(address(page)))
-    at_rest(other, points=64)
-    assert strip(other) == strip(page)
-    assert other.input_value('#explore [data-key="shown"]') == "gap"
-    np.testing.assert_array_equal(image(other, "contact"), image(page, "contact"))
-    assert table(other, "aperture") == table(page, "aperture")
-    assert other.is_checked("#explore-adds-fluid")
-    other.context.close()
-
-
-def flow_is_gone(page, elastic):
-    page.wait_for_function("() => !document.querySelector('[data-answer=aperture]')")
-    assert strip(page) == elastic
-    assert not page.is_visible("#tab-aperture")
-    assert page.is_visible("#plot-explore-area")
-    assert page.input_value('#explore [data-key="shown"]') == "area"
-    assert "fluid" not in address(page)
-    assert set(image(page, "contact")) == {0, 1}
-    assert source(page, "contact rings") == [[], []]
-    assert page.inner_text('[data-remarks="aperture"]') == ""
-
-
 @pytest.mark.parametrize(("theme", "all_of_it"), [("light", False), ("dark", True)])
 def test_walk_over_a_fluid(pages, theme, all_of_it):
     page = pages.open(SMALL, theme=theme)
@@ -169,15 +146,15 @@ def test_walk_over_a_fluid(pages, theme, all_of_it):
             page.click("#save")
         assert coming.value.suggested_filename == "curve.png"
         page.select_option('#explore [data-key="shown"]', "gap")
-        link_shows_the_same(page, pages)
+        assert_linked(page, pages, "fluid", "aperture", partial(at_rest, points=64))
         page.select_option('#explore [data-key="shown"]', "flux")
     typed(page, "F", "9")
     at_rest(page, points=64, F=9)
     sealed_loads_are_shown(page)
     typed(page, "F", "0.2")
-    page.uncheck("#explore-adds-fluid")
-    settled(page, points=64, F=0.2)
-    flow_is_gone(page, elastic)
+    assert_taken_away(page, "fluid", "aperture", elastic)
+    assert source(page, "contact rings") == [[], []]
+    assert page.inner_text('[data-remarks="aperture"]') == ""
     page.context.close()
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -45,17 +45,20 @@ class Map:
     corner: Sequence[float] = (0.0, 0.0)  # where it lies in the frame
     scale: float = 0.0  # of heights: their unit over that of its axes, where that is known
     table: tuple[list[str], list[list[str]]] | None = None  # for those who do not see it
+    called: Mapping[str, str] = field(default_factory=dict)  # what colours mean, if it is not usual
 
     @property
     def meanings(self) -> dict[str, str]:
         """What colours of the theme mean in it, by their names."""
         marks = self.palette if isinstance(self.palette, tuple) else ()
-        return {name: _MEANINGS[name] for name in (*marks, self.blank) if name in _MEANINGS}
+        known = {**_MEANINGS, **self.called}
+        return {name: known[name] for name in (*marks, self.blank) if name in known}
 
     @property
     def look(self) -> dict[str, Any]:
         """How it is drawn, without its numbers."""
-        look = {name: value for name, value in vars(self).items() if name != "values"}
+        unsent = ("values", "called")
+        look = {name: value for name, value in vars(self).items() if name not in unsent}
         return look | {"meanings": self.meanings}
 
 
@@ -76,43 +79,26 @@ def contact_maps(
     return {
         "area": Map(marked, colours, 0, len(colours) - 1),
         "pressure": _scaled(
-            values=fields.pressure,
-            scale=pressure,
-            palette="Viridis256",
-            title="pressure",
+            fields.pressure,
+            pressure,
+            "pressure",
+            "blank where nothing touches",
             low=_PRESSED_SHARE,
-            caption="blank where nothing touches",
+            palette="Viridis256",
         ),
-        "gap": _scaled(
-            values=open_gap,
-            scale=gap,
-            palette="Cividis256",
-            title="gap",
-            nothing="in contact",
-            caption="blank where they touch",
-        ),
-        "displacement": _scaled(
-            values=fields.displacement,
-            scale=deflection,
-            palette="Cividis256",
-            title="deflection",
-            caption="of the half-space",
-        ),
+        "gap": _scaled(open_gap, gap, "gap", "blank where they touch", nothing="in contact"),
+        "displacement": _scaled(fields.displacement, deflection, "deflection", "of the half-space"),
     }
 
 
 def _scaled(
-    values: NDArray[Any],
-    scale: ShownUnit,
-    palette: str,
-    title: str,
-    low: float = 0.0,
-    **others: Any,
+    values: NDArray[Any], scale: ShownUnit, title: str, caption: str, low: float = 0.0, **look: Any
 ) -> Map:
     """A map from a share of its largest number, or zero, to that."""
     scaled = values * scale[0]
     high = float(np.nanmax(scaled, initial=0.0))
-    return Map(scaled, palette, low * high, high or 1.0, title, scale[1], **others)
+    look = {"palette": "Cividis256", "caption": caption, **look}
+    return Map(scaled, low=low * high, high=high or 1.0, title=title, unit=scale[1], **look)
 
 
 def flux_map(flow: rl.Flow) -> Map:

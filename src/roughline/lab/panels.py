@@ -48,6 +48,7 @@ class Panel:
     is_logarithmic: bool = True
     of_places: bool = False  # whether x counts places with names: 1, 2, 3
     cursor: Literal["", "height", "width"] = ""  # how a line lies that can be dragged
+    drags: str = "F"  # key of the control that it sets
 
     def with_series(self, *others: Series) -> Panel:
         """Return the same panel with more series, each once."""
@@ -87,6 +88,12 @@ class PanelContent:
 def marks(name: str, legend: str, colour: str, **look: Any) -> Series:
     """Marks without a line."""
     return Series(name, legend, colour, {"scatter": {"line_width": 1.5, **look}})
+
+
+def joined(name: str, legend: str, colour: str, **look: Any) -> Series:
+    """Marks on a line."""
+    glyphs = {"line": {"line_width": 2}, "scatter": {"line_width": 1.5, **look}}
+    return Series(name, legend, colour, glyphs)
 
 
 def line(name: str, legend: str, colour: str, width: float, **look: Any) -> Series:

@@ -15,7 +15,7 @@ def up() -> None:
     rl.set_threads(1)  # many sessions share the cores
     for special in (
         *({}, {"boundary": "periodic"}),
-        *({"hardness_bar": "0.5"}, {"fluid": "x"}, {"w": "1"}, {"t": "0.05"}),
+        *({"hardness_bar": "0.5"}, {"fluid": "x"}, {"w": "1"}, {"t": "0.05"}, {"mu": "0.3"}),
     ):
         arguments = {"state": {"n": "64", **special}, "session": {}}
         for task in (pictures.reduced, pictures.full):

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Any, ClassVar
+from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 
@@ -13,31 +13,68 @@ from roughline.halfspace.laws.pulling_zone import RESOLVED_FROM
 from roughline.halfspace.operators.cell import cell_compliance
 from roughline.lab.controls import ControlError, Number, as_code
 from roughline.lab.explore.panels import BACK, selected_points
-from roughline.lab.explore.pressing import pressed_under
-from roughline.lab.explore.state import SURFACE_KEYS, ExploreState, Item, PageAnswer, Physics
-from roughline.lab.explore.words import item, number_rows
+from roughline.lab.explore.state import (
+    SURFACE_KEYS,
+    AddedCode,
+    ExploreState,
+    PageAnswer,
+    Physics,
+    StripFigure,
+    StripWords,
+)
+from roughline.lab.explore.words import number_rows
 from roughline.lab.maps import Map
-from roughline.lab.panels import FORCE, Panel, PanelContent, Series, linear_span
+from roughline.lab.panels import FORCE, Panel, PanelContent, Series, joined, linear_span, marks
 from roughline.lab.server.tasks import Progress
 from roughline.report.values import figure, up_to_three_digits
 
-_COARSE_POINTS, _FINER_POINTS = 128, 256  # along a side of the surface, at first and then
 _LOAD_HISTORY = 1.0, 2.0, 1.0, 0.0  # over the present load: beyond it, back to it, to none
 _LOAD_BACK = 2  # number of the load of the history that comes back to the present one
 _DEPTHS_IN, _DEPTHS_OUT = 25, 35
 _PULL_FACTOR = 1.5  # times the largest pull of the depths: more than is borne
 _ALL_LOADS = 69  # a few of which the forces add
 
+_PULLING = StripFigure(
+    "pulling",
+    "pulled",
+    "Share of the nominal area across whose gap the bodies pull each other, on the way to this "
+    "load.",
+    after="pull_off",
+)
+_ZONE = StripFigure(
+    "zone",
+    "pulling zone",
+    "Width of the zone that pulls about a contact, E* w / (π σ_0²) with σ_0 = w / h_0, in cells of "
+    f"this grid; {RESOLVED_FROM:g} resolve it.",
+    after="pulling",
+)
+_RETREAT = StripFigure(
+    "retreat",
+    "contact, way back",
+    "Real contact area at this load on the way back from twice as much, beside that on the way "
+    "there.",
+    after="roughness",
+)
+_PULL_OFF = StripFigure(
+    "pull_off",
+    "pull-off",
+    "Largest pull F / (E* h L) that the contact bears on the way back; below it with its unit, and "
+    "over the nominal area.",
+    after="retreat",
+)
+_IN_PYTHON = """print("area_fraction_corrected, way back", curve.area_fraction_corrected[2])
 
-def _way(name: str, colour: str, marker: str) -> Series:
-    return Series(
-        name, name, colour, {"line": {"line_width": 2}, "scatter": {"size": 4, "marker": marker}}
-    )
+apart = -2 * h_0 - math.sqrt(2 * math.sqrt(math.pi) * work * length / E_star)
+depths = [curve.depth[1] + i / 35 * (apart - curve.depth[1]) for i in range(36)]
+back = rl.press(surface, half_space=half_space, law=law, depths=depths)
+forces = [2 * force, 1.5 * back.pull_off_force]  # the second is more than is borne
+off = rl.press(surface, half_space=half_space, law=law, forces=forces, throw=False)
+print("pull_off_force", off.pull_off_force, "N")
+"""
 
 
-def _mark(name: str, legend: str, colour: str, marker: str, edge: str) -> Series:
-    look = {"size": 13, "line_width": 1.5, "marker": marker}
-    return Series(name, legend, colour, {"scatter": look}, edge)
+def _large(name: str, legend: str, colour: str, marker: str, edge: str) -> Series:
+    return replace(marks(name, legend, colour, marker=marker, size=13), edge=edge)
 
 
 @dataclass(frozen=True)
@@ -87,12 +124,7 @@ class AdhesionPhysics(Physics):
         "the adhesion"
     }
     maps: ClassVar = {"retreat": "area, way back"}
-    strip: ClassVar = {
-        "retreat": "roughness",
-        "pull_off": "retreat",
-        "pulling": "pull_off",
-        "zone": "pulling",
-    }
+    strip = (_RETREAT, _PULL_OFF, _PULLING, _ZONE)
     panels = (
         Panel(
             key="cycle",
@@ -101,10 +133,10 @@ class AdhesionPhysics(Physics):
             y=FORCE,
             ranges=((-1, 1), (-1, 1)),
             series=(
-                _way("there", "dark-line", "circle"),
-                _way("back", "here", "square"),
-                _mark("here", "this load on both ways", "mark", "circle", "paper"),
-                _mark("pull-off", "pull-off", "pull", "inverted_triangle", "text"),
+                joined("there", "there", "dark-line", size=4, marker="circle"),
+                joined("back", "back", "here", size=4, marker="square"),
+                _large("here", "this load on both ways", "mark", "circle", "paper"),
+                _large("pull-off", "pull-off", "pull", "inverted_triangle", "text"),
             ),
             columns=("d/h", "F̄", "A/A₀", "k / (E* L)", "way"),
             task="w",
@@ -139,29 +171,15 @@ class AdhesionPhysics(Physics):
         """Whether the zone that pulls has enough cells."""
         return self.zone(state, n) >= RESOLVED_FROM
 
-    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> list[Item]:
+    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> StripWords:
         """Where bodies pull each other at the load, and how well the grid resolves that."""
-        cells, needed = self.zone(state, len(fields.gap)), RESOLVED_FROM
-        is_resolved = cells >= needed
-        return [
-            item(
-                key="pulling",
-                symbol="pulled",
-                value=f"{figure(100 * float(pressed.pulling_fraction[0]))}%",
-                meaning="Share of the nominal area across whose gap the bodies pull each other, on "
-                "the way to this load.",
-            ),
-            item(
-                key="zone",
-                symbol="pulling zone",
-                value=f"{figure(cells, 2)} cells{'' if is_resolved else ' *'}",
-                meaning="Width of the zone that pulls about a contact, E* w / (π σ_0²) with σ_0 = "
-                f"w / h_0, in cells of this grid; {needed:g} resolve it.",
-                below=""
-                if is_resolved
-                else f"{needed:g} are needed: a longer range, or a finer grid",
-            ),
-        ]
+        yield _PULLING.in_words(f"{figure(100 * float(pressed.pulling_fraction[0]))}%")
+        cells = f"{figure(self.zone(state, len(fields.gap)), 2)} cells"
+        if self.is_resolved(state, len(fields.gap)):
+            yield _ZONE.in_words(cells)
+        else:
+            needed = f"{RESOLVED_FROM:g} are needed: a longer range, or a finer grid"
+            yield _ZONE.in_words(f"{cells} *", needed)
 
     def added_maps(self, fields: rl.Fields, state: ExploreState) -> dict[str, Map]:
         """Where bodies touch, and where they pull each other."""
@@ -169,73 +187,52 @@ class AdhesionPhysics(Physics):
 
     def further(self, state: ExploreState, refines: bool, progress: Progress) -> PageAnswer:
         """Follow both ways: beyond the load, back to it, and off."""
-        n = state.points(_FINER_POINTS if refines else _COARSE_POINTS)
-        found = _cycle(state, self, n, progress)
+        n, is_coarse = state.staged(refines)
+        found = _both_ways(state, self, n, progress)
         fields = found.by_forces.fields[_LOAD_BACK]
         content = {
             "panels": _panels(found, state, n),
-            "strip": _words(found, state, n),
-            "is_coarse": n < state.points(_FINER_POINTS),
+            "strip": list(_words_of_the_way_back(found, state, n)),
+            "is_coarse": is_coarse,
         }
         return content, {} if fields is None else {"retreat": _area_map(fields)}
 
-    def in_python(self, state: ExploreState) -> tuple[str, str, str]:
-        """The law, both ways, and what pulls the bodies apart."""
+    def code(self, state: ExploreState) -> AddedCode:
+        """The law, the way back, and what pulls the bodies apart."""
+        law = self.law(state)
         work = f"{as_code(self.w)} * E_star * surface.rms_height**2 / length"
         reach = f"{as_code(self.h0)} * surface.rms_height"
-        before = (
-            f"work = {state.in_python('w', 'J/m**2', work)}  # J/m²\n"
+        in_words = state.in_words("w", "J/m^2", law.work_of_adhesion)
+        return AddedCode(
+            before=f"work = {state.in_python('w', 'J/m**2', work)}  # J/m²\n"
             f"h_0 = {state.in_python('h0', 'm', reach)}  # m\n"
-            "law = rl.Dugdale(work_of_adhesion=work, range=h_0)\n"
+            "law = rl.Dugdale(work_of_adhesion=work, range=h_0)\n",
+            arguments="law=law, forces=[force, 2 * force, force, 0.0]",
+            after=_IN_PYTHON,
+            command=("--adhesion", f"{in_words} over {state.in_words('h0', 'm', law.range)}"),
+            left_out="the way back and the pull-off need two materials",
         )
-        arguments = "law=law, forces=[force, 2 * force, force, 0.0]"
-        return before, arguments, _IN_PYTHON.format(body=state.body_in_python[0])
-
-    def in_command(self, state: ExploreState) -> tuple[list[str], str]:
-        """The law."""
-        law = self.law(state)
-        work = state.in_words("w", "J/m^2", law.work_of_adhesion)
-        reach = state.in_words("h0", "m", law.range)
-        left_out = "the way back and the pull-off need two materials"
-        return ["--adhesion", f"{work} over {reach}"], left_out
-
-
-_IN_PYTHON = """print("area_fraction_corrected, way back", curve.area_fraction_corrected[2])
-
-apart = -2 * h_0 - math.sqrt(2 * math.sqrt(math.pi) * work * length / E_star)
-depths = [curve.depth[1] + i / 35 * (apart - curve.depth[1]) for i in range(36)]
-back = rl.press(surface, {body}, law=law, depths=depths)
-forces = [2 * force, 1.5 * back.pull_off_force]  # the second is more than is borne
-off = rl.press(surface, {body}, law=law, forces=forces, throw=False)
-print("pull_off_force", off.pull_off_force, "N")
-"""
 
 
 @dataclass(frozen=True, eq=False)
-class _Cycle:
+class _BothWays:
     """Bodies that stick: to a load, beyond, back and off."""
 
     by_forces: rl.SurfaceCurve  # to the load, beyond, back to it, and to none
     by_depths: rl.SurfaceCurve  # from out of reach and back to it, over all that forces jump over
-    pull_off: tuple[float, float]  # depth and force; NaN where the grid does not resolve them
+    depth: float  # of the pull-off [m]
+    pull: float  # its force; NaN where the grid does not resolve it [N]
 
 
-def _cycle(
-    state: ExploreState,
-    pull: AdhesionPhysics,
-    n: int,
-    progress: Progress,
-    measures: tuple[rl.Measure, ...] = (),
-) -> _Cycle:
+def _both_ways(state: ExploreState, pull: AdhesionPhysics, n: int, progress: Progress) -> _BothWays:
     """Follow the surface on so many points along a side."""
-    surface = state.surface(n)
-    done_before = 0
+    surface, done_before = state.surface(n), 0
 
     def step(done: int, total: int) -> None:
         progress(done_before + done, _ALL_LOADS)
 
     forces = state.F * np.array(_LOAD_HISTORY)
-    by_forces = pressed_under(state, surface, forces, step, fields=[0, _LOAD_BACK])
+    by_forces = state.press(surface, step, forces, fields=[0, _LOAD_BACK])
     depth = by_forces.depth
     if not np.isfinite(depth).all():
         raise ControlError("a load was not solved, so that no way back is known", "F")
@@ -247,16 +244,15 @@ def _cycle(
     there = np.union1d(np.linspace(-reach, deepest, _DEPTHS_IN), depth[0])
     back = np.union1d(np.linspace(deepest, -reach - drawn, _DEPTHS_OUT + 1)[1:], depth[_LOAD_BACK:])
     done_before = depth.size
-    depths = np.append(there, back[::-1])
-    by_depths = pressed_under(state, surface, None, step, depths=depths, measures=measures)
+    by_depths = state.press(surface, step, depths=np.append(there, back[::-1]))
     found = by_depths.pull_off_depth, by_depths.pull_off_force
     if math.isfinite(found[1]):  # to the tolerance, by a pull that is not much more
         done_before += by_depths.depth.size
-        pulls = np.array([_LOAD_HISTORY[1] * state.F, _PULL_FACTOR * found[1] / state.force(1.0)])
-        off = pressed_under(state, surface, pulls, step)
-        ends = found, (off.pull_off_depth, off.pull_off_force)
-        found = min(ends, key=lambda each: math.inf if math.isnan(each[1]) else each[1])
-    return _Cycle(by_forces, by_depths, found)
+        pulls = [_LOAD_HISTORY[1] * state.F, _PULL_FACTOR * found[1] / state.force(1.0)]
+        off = state.press(surface, step, pulls)
+        if off.pull_off_force < found[1]:
+            found = off.pull_off_depth, off.pull_off_force
+    return _BothWays(by_forces, by_depths, *found)
 
 
 def _area_map(fields: rl.Fields) -> Map:
@@ -264,73 +260,51 @@ def _area_map(fields: rl.Fields) -> Map:
     return Map(touching_and_pulling, ("paper", "ink", "pull"), 0, 2)
 
 
-def _panels(found: _Cycle, state: ExploreState, n: int) -> dict[str, PanelContent]:
+def _panels(found: _BothWays, state: ExploreState, n: int) -> dict[str, PanelContent]:
     """What the page draws of both ways, on so many points along a side."""
-    by_forces, by_depths, (depth, pull) = found.by_forces, found.by_depths, found.pull_off
-    height, there = by_forces.rms_height, by_depths.on_approach
+    by_forces, by_depths = found.by_forces, found.by_depths
+    height, there, known = by_forces.rms_height, by_depths.on_approach, by_depths.converged
     depths, forces = by_depths.depth / height, state.force_bars(by_depths)
-    here, is_known = [0, _LOAD_BACK], math.isfinite(pull)
-    series: dict[str, Any] = {
-        "there": selected_points(depths, forces, there & by_depths.converged),
-        "back": selected_points(depths, forces, ~there & by_depths.converged),
-        "here": {"x": by_forces.depth[here] / height, "y": state.force_bars(by_forces)[here]},
-        "pull-off": {"x": [depth / height] * is_known, "y": [pull / state.force(1.0)] * is_known},
-    }
+    here, loads, turned = [0, _LOAD_BACK], state.force_bars(by_forces), slice(1, _LOAD_BACK + 1)
+    is_known = math.isfinite(found.pull)
+    off = {"x": [found.depth / height] * is_known, "y": [found.pull / state.force(1.0)] * is_known}
     columns = number_rows(
         depths, forces, by_depths.area_fraction, state.stiffness_bars(by_depths.stiffness)
     )
-    is_loaded = (forces != 0) & by_depths.converged
-    turned = slice(1, _LOAD_BACK + 1)
+    ways = ["there" if nearer else "back" for nearer in there]
+    is_loaded = (forces != 0) & known
+    of_cycle = PanelContent(
+        series={
+            "there": selected_points(depths, forces, there & known),
+            "back": selected_points(depths, forces, ~there & known),
+            "here": {"x": by_forces.depth[here] / height, "y": loads[here]},
+            "pull-off": off,
+        },
+        rows=[[*row, way] for row, way in zip(columns, ways, strict=True)],
+        caption=f"by depths to twice this load and back, on {n}² points; under a force bodies jump "
+        "where it falls",
+        x=linear_span(depths[is_loaded]),
+        y=linear_span(forces[is_loaded]),
+        legends={"pull-off": f"pull-off, {_pull_off(found, state)}"},
+    )
     of_turn = {
-        panel: PanelContent(
-            {"back": selected_points(state.force_bars(by_forces)[turned], values[turned])}
-        )
+        panel: PanelContent({"back": selected_points(loads[turned], values[turned])})
         for panel, values in state.over_force(by_forces).items()
         if panel in AdhesionPhysics.series
     }
-    return of_turn | {
-        "cycle": PanelContent(
-            series,
-            [
-                [*row, "there" if nearer else "back"]
-                for row, nearer in zip(columns, there, strict=True)
-            ],
-            f"by depths to twice this load and back, on {n}² points; under a force bodies jump "
-            "where it falls",
-            x=linear_span(depths[is_loaded]),
-            y=linear_span(forces[is_loaded]),
-            legends={"pull-off": f"pull-off, {_pull_off(found, state)}"},
-        )
-    }
+    return of_turn | {"cycle": of_cycle}
 
 
-def _pull_off(found: _Cycle, state: ExploreState) -> str:
-    pull = found.pull_off[1]
-    return figure(pull / state.force(1.0)) if math.isfinite(pull) else "not known"
+def _pull_off(found: _BothWays, state: ExploreState) -> str:
+    return figure(found.pull / state.force(1.0)) if math.isfinite(found.pull) else "not known"
 
 
-def _words(found: _Cycle, state: ExploreState, n: int) -> list[Item]:
+def _words_of_the_way_back(found: _BothWays, state: ExploreState, n: int) -> StripWords:
     """The contact on the way back, and the pull-off."""
-    by_forces, pull = found.by_forces, found.pull_off[1]
-    area = float(by_forces.area_fraction_corrected[_LOAD_BACK])
-    pressure = up_to_three_digits(pull / by_forces.length**2, None, "Pa")
-    return [
-        item(
-            key="retreat",
-            symbol="contact, way back",
-            value=f"{figure(100 * area)}%",
-            meaning="Real contact area at this load on the way back from twice as much, beside "
-            "that on the way there.",
-            below=f"on {n}² points",
-        ),
-        item(
-            key="pull_off",
-            symbol="pull-off",
-            value=_pull_off(found, state),
-            meaning="Largest pull F / (E* h L) that the contact bears on the way back; below it "
-            "with its unit, and over the nominal area.",
-            below=f"{up_to_three_digits(pull, None, 'N')}, {pressure}, on {n}² points"
-            if math.isfinite(pull)
-            else "the grid does not resolve the pull",
-        ),
-    ]
+    area = float(found.by_forces.area_fraction_corrected[_LOAD_BACK])
+    yield _RETREAT.in_words(f"{figure(100 * area)}%", f"on {n}² points")
+    below = "the grid does not resolve the pull"
+    if math.isfinite(found.pull):
+        pressure = up_to_three_digits(found.pull / state.length**2, None, "Pa")
+        below = f"{up_to_three_digits(found.pull, None, 'N')}, {pressure}, on {n}² points"
+    yield _PULL_OFF.in_words(_pull_off(found, state), below)

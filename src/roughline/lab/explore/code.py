@@ -24,11 +24,11 @@ def code(arguments: Arguments, progress: Progress) -> bytes:
 
 def _as_python(state: ExploreState) -> str:
     """Lines that generate the surface, and press it as the page does."""
-    lines, answers, forces = "", "", "forces=[force]"
-    for each in state.added:
-        before, arguments, after = each.in_python(state)
-        lines, answers, forces = lines + before, answers + after, arguments or forces
-    body, _ = state.body_in_python
+    added = [each.code(state) for each in state.added]
+    usual = f"half_space = rl.Homogeneous(E_star{', periodic=True' if state.periodic else ''})\n"
+    half_space = next(filter(None, (each.half_space for each in added)), usual)
+    before, after = ("".join(getattr(each, at) for each in added) for at in ("before", "after"))
+    forces = "".join(each.arguments for each in added) or "forces=[force]"
     load = state.typed("F")
     over = f"{as_code(state.F)} * E_star * surface.rms_height * surface.length"
     force = f"load_in_newtons({load!r}, surface.area)" if load else over
@@ -38,7 +38,7 @@ def _as_python(state: ExploreState) -> str:
 
 import roughline as rl
 from roughline.margins.press import facts_on_press
-from roughline.units import in_si{", load_in_newtons" if load else ""}
+from roughline.units import in_si{", load_in_newtons" * ("load_in_newtons" in force + before)}
 
 length = in_si({state.L!r}, "m", "length")
 E_star = in_si({state.E!r}, "Pa", "E_star")
@@ -51,12 +51,12 @@ spectrum = rl.SelfAffine(
 )
 surface = spectrum.surface(n={state.n}, rng={state.seed})
 force = {force}  # N
-{lines}curve = rl.press(surface, {body}, {forces}, fields=[0])
+{half_space}{before}curve = rl.press(surface, half_space=half_space, {forces}, fields=[0])
 
 print("k / (E* L)", curve.stiffness[0] / (E_star * length))
 print("area_fraction_corrected", curve.area_fraction_corrected[0])
 print("depth over rms height", curve.depth[0] / surface.rms_height)
-{answers}for fact in facts_on_press(surface, curve):
+{after}for fact in facts_on_press(surface, curve):
     print(fact)
 """
 
@@ -74,18 +74,15 @@ def _as_command(state: ExploreState) -> str:
         "--points": str(state.n),
         "--seed": str(state.seed),
     }
-    bodies = {"materials": ", ".join(state.materials)} if state.materials else {"E_star": state.E}
+    added = [each.code(state) for each in state.added]
+    materials = next(filter(None, (each.materials for each in added)), "")
+    bodies = {"materials": materials} if materials else {"E_star": state.E}
     press = bodies | {"loads": in_words("F", "N", state.force(state.F))}
-    words, without = [], []
-    for each in state.added:
-        arguments, left_out = each.in_command(state)
-        words += arguments
-        without += [f"# {left_out}: take it as Python"] if left_out else []
-    words += [_FLAGS["periodic"]] if state.periodic else []
+    words = [*chain(*(each.command for each in added)), *[_FLAGS["periodic"]] * state.periodic]
     flags = chain.from_iterable((_FLAGS[name], text) for name, text in press.items())
     lines = [
         shlex.join(["roughline", "generate", *chain(*generate.items())]),
         shlex.join(["roughline", "press", "surface.nc", *flags, *words]),
-        *without,
+        *(f"# {each.left_out}: take it as Python" for each in added if each.left_out),
     ]
     return "".join(f"{line}\n" for line in lines)

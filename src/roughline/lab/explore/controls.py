@@ -39,17 +39,18 @@ class _Dimension(Number):
 
 
 @dataclass(frozen=True, kw_only=True)
-class _LoadNumber(Number):
+class LoadNumber(Number):
     """A force, or a pressure on the whole surface."""
 
     def in_unit(self, text: str, state: Any) -> float:
-        return load_in_newtons(text, state.length**2)
+        """The force in a text, in newtons."""
+        return load_in_newtons(text, state.length**2, self.name)
 
 
-_length = partial(
-    Number, unit="m", state_scale=lambda state: float(state.length), over="sides"
-)  # over the side of the surface
-
+over_side = partial(Number, unit="m", state_scale=lambda state: float(state.length), over="sides")
+"""A length, over the side of the surface."""
+poissons_ratio = partial(Number, low=0.0, high=0.5, default=0.3, scale="linear", step=0.01)
+"""Poisson's ratio of a body."""
 
 _NUMBERS = (
     _Dimension(
@@ -63,7 +64,7 @@ _NUMBERS = (
         "H, with the Hurst exponent H. It has no unit. H may be typed instead, as H = 0.8.",
         scale="linear",
     ),
-    _length(
+    over_side(
         key="roll_off",
         symbol="λ_r/L",
         name="roll-off wavelength",
@@ -73,7 +74,7 @@ _NUMBERS = (
         meaning="The spectrum is flat for waves longer than this. Relative to the side of the "
         "surface, or with a unit, such as 0.2 mm; at 1 there is no plateau.",
     ),
-    _length(
+    over_side(
         key="cutoff",
         symbol="λ_s/L",
         name="cutoff wavelength",
@@ -83,7 +84,7 @@ _NUMBERS = (
         meaning="Length of the shortest wave. Relative to the side of the surface, or with a unit; "
         "n points along a side carry no waves shorter than 2/n, which is the default of each grid.",
     ),
-    _length(
+    over_side(
         key="h",
         symbol="h/L",
         name="rms height",
@@ -115,7 +116,7 @@ _NUMBERS = (
         scale="whole",
         step=1,
     ),
-    _LoadNumber(
+    LoadNumber(
         key="F",
         symbol="F̄",
         name="load",
@@ -201,7 +202,7 @@ NUMBERS = {each.key: each for each in _NUMBERS}
 CHOICES = {each.key: each for each in _CHOICES}
 """Choices by their keys."""
 LOAD = "F"
-"""Key of the load, which is read when all else is."""
+"""Key of the load, which is read when the surface is known."""
 CONTROLS: dict[str, Control] = {each.key: each for each in (*_QUANTITIES, *_CHOICES, *_NUMBERS)}
 """All controls by their keys, in the order in which they are read: the side and the modulus, which
 are scales of others, come first, and the load last."""

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import urlencode
 
-import numpy as np
 import xarray
 
 import roughline as rl
@@ -15,9 +14,8 @@ from roughline.computing.disk import write_dataset
 from roughline.lab.controls import STRANGE, ControlError, rounded
 from roughline.lab.explore import pictures
 from roughline.lab.explore.controls import FILES
-from roughline.lab.explore.pressing import CURVE_POINTS, pressed_under
 from roughline.lab.explore.reading import state_in
-from roughline.lab.explore.state import ExploreState
+from roughline.lab.explore.state import CURVE_POINTS, ExploreState
 from roughline.lab.frames import frame
 from roughline.lab.server.tasks import Arguments, Progress
 
@@ -33,34 +31,32 @@ def download(arguments: Arguments, progress: Progress) -> bytes:
     points = arguments.get("points", state.n)
     if not isinstance(points, int) or not 2 <= points <= state.n:
         raise ControlError(STRANGE)
-    folder = Path(arguments["session"]["folder"]) / "results"
-    folder.mkdir(parents=True, exist_ok=True)
-    _WRITERS[name](state, points, folder / name, progress)
+    path = Path(arguments["session"]["folder"]) / "results" / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    _WRITERS[path.stem](state, points, path, progress)
     return frame({"file": name})
 
 
 def _write_loads(state: ExploreState, points: int, path: Path, progress: Progress) -> None:
     """Write the loads of the full model with all their quantities, in SI units."""
-    surface = state.surface(state.points(CURVE_POINTS))
     forces = pictures.drawn_forces(state)
-    pressed = pressed_under(state, surface, forces, progress, measures=state.measures)
-    data = pressed.to_dataset().assign_attrs(_settings(state, points))
-    write_dataset(data, path)
+    pressed = state.press(state.surface_of_curves, progress, forces, measures=state.measures)
+    write_dataset(pressed.to_dataset().assign_attrs(_settings(state, points)), path)
 
 
 def _write_maps(state: ExploreState, points: int, path: Path, progress: Progress) -> None:
     """Write the heights as `rl.write` does, and with them the maps of the contact."""
     surface = state.surface(points)
     rl.write(surface, path)
-    pressed = pressed_under(state, surface, np.array([state.F]), progress, fields=True)
+    pressed = state.press(surface, progress, [state.F], fields=True)
     maps = pressed.to_dataset().isel(force=0).drop_vars("force")
     if (fields := pressed.fields[0]) is not None:
         for each in state.added:
             for name, (values, unit, meaning) in each.saved_fields(fields).items():
                 maps[name] = (("x", "y"), values, {"units": unit, "long_name": meaning})
     heights = xarray.load_dataset(path)
-    data = heights.merge(maps)
-    write_dataset(data.assign_attrs(_settings(state, points) | heights.attrs), path)
+    settings = _settings(state, points) | heights.attrs
+    write_dataset(heights.merge(maps).assign_attrs(settings), path)
 
 
 def _write_surface(state: ExploreState, points: int, path: Path, progress: Progress) -> None:
@@ -97,9 +93,7 @@ def _settings(state: ExploreState, points: int) -> dict[str, Any]:
 
 
 _WRITERS: dict[str, Callable[[ExploreState, int, Path, Progress], None]] = {
-    "maps.nc": _write_maps,
-    "curve.nc": _write_loads,
-    "surface.nc": _write_surface,
-    "surface.x3p": _write_surface,
-    "surface.gsf": _write_surface,
+    "maps": _write_maps,
+    "curve": _write_loads,
+    "surface": _write_surface,
 }

@@ -10,15 +10,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 import roughline as rl
-from roughline.lab.explore.panels import curve_note, loads, over_force
-from roughline.lab.explore.pressing import CURVE_POINTS, bearable_forces, pressed_under
-from roughline.lab.explore.state import ExploreState, Item, PageAnswer, Physics
-from roughline.lab.explore.words import item, number_rows
+from roughline.lab.explore.panels import curve_note, loads, over_force, selected_points
+from roughline.lab.explore.state import (
+    AddedCode,
+    ExploreState,
+    PageAnswer,
+    Physics,
+    StripFigure,
+    StripWords,
+)
+from roughline.lab.explore.words import number_rows
 from roughline.lab.maps import Map, flux_map, throttled_at
-from roughline.lab.panels import PanelContent, Points, Series, marks, span, theory_lines
+from roughline.lab.panels import PanelContent, Series, marks, span, theory_lines
 from roughline.lab.server.tasks import Progress
 from roughline.report.values import figure, up_to_three_digits
-from roughline.theories.theory_curve import TheoryCurve
 from roughline.units import engineering, supported_digits
 
 _APERTURE = rl.hydraulic_aperture("x")
@@ -27,10 +32,20 @@ _THEORIES = {"critical-junction": "critical junction", "bruggeman": "Bruggeman"}
 _FORCES, _THEORY_FORCES = np.geomspace(1e-3, 9, 14), np.geomspace(1e-3, 9, 27)
 _SEALED = "sealed"
 _LOWEST_FACTOR = 3  # factor between the smallest aperture and the end of the axis
-_APERTURE_MEANING = (
+_OPENING = StripFigure(
+    "aperture",
+    "u_h",
     "Hydraulic aperture: gap of two flat plates that let as much fluid through, from left to "
     "right; a leak is proportional to its cube. The interval shows how far finer grids may "
-    "change it."
+    "change it.",
+    after="area",
+)
+_CHANNEL = StripFigure(
+    "channel",
+    "largest channel",
+    "Largest share of the flow that one channel between two places of contact carries. Below: "
+    "where the fluid is throttled most, the ring in the map, and the gap there.",
+    after="aperture",
 )
 _IN_PYTHON = """flow = rl.flow(curve.fields[0])
 print("hydraulic aperture over rms height", flow.hydraulic_aperture / surface.rms_height)
@@ -55,7 +70,7 @@ class FluidPhysics(Physics):
     )
     maps: ClassVar = {"flux": "flux"}
     opens = "flux"
-    strip: ClassVar = {"aperture": "area", "channel": "aperture"}
+    strip = (_OPENING, _CHANNEL)
     panels = (
         over_force(
             key="aperture",
@@ -84,39 +99,29 @@ class FluidPhysics(Physics):
         measured = pressed.measured.get(_APERTURE.name)
         return {} if measured is None else {"aperture": measured.values / pressed.rms_height}
 
-    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> list[Item]:
+    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> StripWords:
         """What comes through at the load, and the channel that carries most of it."""
-        flow, ends = _flow(fields), None
+        flow, measured, ends = _flow(fields), pressed.measured[_APERTURE.name], None
         aperture = flow.hydraulic_aperture
-        measured = pressed.measured[_APERTURE.name]
         if measured.low is not None and measured.high is not None:
             ends = float(measured.low[0]), float(measured.high[0])
         if flow.is_sealed:
-            below = f"at most {engineering(ends[1], 'm', 3)}" if ends and ends[1] > 0 else ""
-            return [item("aperture", "u_h", _SEALED, _APERTURE_MEANING, below)]
+            at_most = f"at most {engineering(ends[1], 'm', 3)}" if ends and ends[1] > 0 else ""
+            yield _OPENING.in_words(_SEALED, at_most)
+            return
         doubt = flow.validity or ("" if flow.converged else "the flow did not converge")
         value = figure(aperture / pressed.rms_height, supported_digits(aperture, ends, 3))
+        yield _OPENING.in_words(
+            f"{value} h{' *' if doubt else ''}",
+            up_to_three_digits(aperture, ends, "m"),
+            f" But {doubt}." if doubt else "",
+        )
         x, y = map(figure, throttled_at(flow))
-        share = f"{figure(100 * flow.largest_share)}%" if flow.largest_share else "none"
         gap = figure(float(flow.gap[flow.constriction]) / pressed.rms_height)
-        return [
-            item(
-                key="aperture",
-                symbol="u_h",
-                value=f"{value} h" + (" *" if doubt else ""),
-                meaning=_APERTURE_MEANING + (f" But {doubt}." if doubt else ""),
-                below=up_to_three_digits(aperture, ends, "m"),
-            ),
-            item(
-                key="channel",
-                symbol="largest channel",
-                value=share,
-                meaning="Largest share of the flow that one channel between two places of contact "
-                "carries. Below: where the fluid is throttled most, the ring in the map, and the "
-                "gap there.",
-                below=f"ring: x {x} L, y {y} L, gap {gap} h",
-            ),
-        ]
+        yield _CHANNEL.in_words(
+            f"{figure(100 * flow.largest_share)}%" if flow.largest_share else "none",
+            f"ring: x {x} L, y {y} L, gap {gap} h",
+        )
 
     def added_maps(self, fields: rl.Fields, state: ExploreState) -> dict[str, Map]:
         """Where the fluid goes."""
@@ -130,44 +135,38 @@ class FluidPhysics(Physics):
 
     def further(self, state: ExploreState, refines: bool, progress: Progress) -> PageAnswer:
         """What flows through the gap over force, and what theories of the flow say."""
-        surface = state.surface(state.points(CURVE_POINTS))
-        forces = bearable_forces(state, _FORCES)
-        pressed = pressed_under(state, surface, forces, progress, measures=self.measures())
+        surface, forces = state.surface_of_curves, state.bearable(_FORCES)
+        pressed = state.press(surface, progress, forces, measures=self.measures())
         apertures = self.over_force(pressed)["aperture"]
-        of_theories = _theories(state, surface)
-        drawn = {"sealed": _points(forces[apertures == 0], apertures[apertures == 0])}
-        drawn |= loads(forces, apertures, pressed)
-        rows = _rows(forces, apertures, "3D")
-        sealed = []
-        for name, (_, found) in of_theories.items():
-            drawn[f"theory {name}"] = _points(_THEORY_FORCES[found > 0], found[found > 0])
+        drawn, rows = loads(forces, apertures, pressed), _rows(forces, apertures, "3D")
+        drawn["sealed"] = selected_points(forces, apertures, apertures == 0)
+        sealed, known, remarks = [], [*apertures], []
+        pressures = state.force(_THEORY_FORCES) / surface.area
+        for name, called in _THEORIES.items():
+            theory = rl.theory(name, surface, pressure=pressures, half_space=state.half_space)
+            assert theory.hydraulic_aperture is not None
+            found = theory.hydraulic_aperture / surface.rms_height
+            drawn[f"theory {name}"] = selected_points(_THEORY_FORCES, found)
             sealed += _THEORY_FORCES[found == 0][:1].tolist()  # the first such load alone
-            rows += _rows(_THEORY_FORCES, found, _THEORIES[name])
+            known.append(found[0])
+            rows += _rows(_THEORY_FORCES, found, called)
+            remarks.append(f"{called}: {theory.validity}.")
         drawn["theory sealed"] = {"x": sealed, "y": [0] * len(sealed)}
-        least = apertures[apertures > 0].min(initial=np.inf) / _LOWEST_FACTOR
-        known = [*apertures, *(found[0] for _, found in of_theories.values()), least]
-        remarks = [f"{_THEORIES[name]}: {each.validity}" for name, (each, _) in of_theories.items()]
+        known.append(apertures[apertures > 0].min(initial=np.inf) / _LOWEST_FACTOR)
         caption = f"{_where_sealed(forces, apertures)}; {curve_note(pressed, len(surface.heights))}"
-        filled = PanelContent(drawn, rows, caption, f"{'. '.join(remarks)}.", y=span(known))
+        filled = PanelContent(drawn, rows, caption, " ".join(remarks), y=span(known))
         return {"panels": {"aperture": filled}}, {}
 
-    def in_python(self, state: ExploreState) -> tuple[str, str, str]:
-        """The aperture at the load."""
-        return "", "", _IN_PYTHON
-
-    def in_command(self, state: ExploreState) -> tuple[list[str], str]:
-        """Nothing, as a leak needs two materials."""
-        return [], "the flow through the gap under a contact modulus has no command"
+    def code(self, state: ExploreState) -> AddedCode:
+        """The aperture at the load; of a command, nothing, as a leak needs two materials."""
+        left_out = "the flow through the gap under a contact modulus has no command"
+        return AddedCode(after=_IN_PYTHON, left_out=left_out)
 
 
 @lru_cache(maxsize=4)
 def _flow(fields: rl.Fields) -> rl.Flow:
     """The flow through a gap, once for all that is asked of it."""
     return rl.flow(fields)
-
-
-def _points(x: NDArray[Any], y: NDArray[Any]) -> Points:
-    return {"x": x, "y": y}
 
 
 def _rows(forces: NDArray[Any], found: NDArray[Any], name: str) -> list[list[str]]:
@@ -186,19 +185,3 @@ def _where_sealed(forces: NDArray[Any], apertures: NDArray[Any]) -> str:
     if not sealed_from:
         return f"no load up to F̄ = {open_until} seals"
     return f"seals between F̄ = {open_until} and {sealed_from[0]}: marks at the foot"
-
-
-def _theories(
-    state: ExploreState, surface: rl.Surface
-) -> dict[str, tuple[TheoryCurve, NDArray[np.float64]]]:
-    """Theories of the flow for the waves of the surface, with their apertures over its height."""
-    pressures = state.force(_THEORY_FORCES) / surface.area
-    half_space = state.half_space
-    curves = [
-        rl.theory(name, surface, pressure=pressures, half_space=half_space) for name in _THEORIES
-    ]
-    return {
-        each.name: (each, each.hydraulic_aperture / surface.rms_height)
-        for each in curves
-        if each.hydraulic_aperture is not None
-    }

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import roughline as rl
 from roughline.lab.controls import ControlError, Number, as_code
-from roughline.lab.explore.state import ExploreState, Item, Physics
-from roughline.lab.explore.words import item
+from roughline.lab.explore.controls import over_side, poissons_ratio
+from roughline.lab.explore.state import AddedCode, ExploreState, Physics, StripFigure, StripWords
 from roughline.report.values import figure, up_to_three_digits
 
 _THINNEST_LAYER = 0.5  # of a cell, below which the library refuses a layer
+_LAYER = StripFigure(
+    "layer",
+    "layer",
+    "Thickness of the layer in cells of this grid; with its unit, and the contact modulus of the "
+    "layer, below.",
+    after="roughness",
+)
 
 
 @dataclass(frozen=True)
@@ -30,7 +36,7 @@ class LayerPhysics(Physics):
         "the base: F̄, k / (E* L), p_c, the hardness and the work of adhesion are over it."
     )
     controls = (
-        Number(
+        over_side(
             key="t",
             symbol="t/L",
             name="thickness of the layer",
@@ -39,9 +45,6 @@ class LayerPhysics(Physics):
             default=0.05,
             meaning="Thickness of the layer. Relative to the side of the surface, or with a unit: "
             "2 um. It has to be half a cell of the grid at least.",
-            unit="m",
-            state_scale=lambda state: float(state.length),
-            over="sides",
         ),
         Number(
             key="E_l",
@@ -56,33 +59,22 @@ class LayerPhysics(Physics):
             state_scale=lambda state: float(state.E_star),
             over="E*",
         ),
-        Number(
+        poissons_ratio(
             key="nu_l",
             symbol="ν_l",
             name="Poisson's ratio of the layer",
-            low=0.0,
-            high=0.5,
-            default=0.3,
             meaning="Of the layer, without unit, at the same contact modulus; at 0.5 it keeps its "
             "volume.",
-            scale="linear",
-            step=0.01,
         ),
-        Number(
+        poissons_ratio(
             key="nu_b",
             symbol="ν_b",
             name="Poisson's ratio of the base",
-            low=0.0,
-            high=0.5,
-            default=0.3,
             meaning="Of the base, without unit, at the same contact modulus.",
-            scale="linear",
-            step=0.01,
         ),
     )
     unlike = "on the homogeneous base"
-    strip: ClassVar = {"layer": "roughness"}
-    body_in_python: ClassVar = ("half_space=half_space", "half_space.E_star")
+    strip = (_LAYER,)
 
     def half_space(self, state: ExploreState) -> rl.HalfSpace:
         """The layer on its base."""
@@ -110,35 +102,24 @@ class LayerPhysics(Physics):
         """Whether it is half a cell thick."""
         return self.t * n >= _THINNEST_LAYER
 
-    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> list[Item]:
+    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> StripWords:
         """Its thickness on the grid, and its modulus."""
         thickness = up_to_three_digits(self.t * state.length, None, "m")
         modulus = up_to_three_digits(self.E_l * state.E_star, None, "Pa")
-        cells = self.t * fields.gap.shape[0]
-        return [
-            item(
-                key="layer",
-                symbol="layer",
-                value=f"{figure(cells)} cells",
-                meaning="Thickness of the layer in cells of this grid; with its unit, and the "
-                "contact modulus of the layer, below.",
-                below=f"{thickness}, E*_l {modulus}",
-            )
-        ]
+        cells = self.t * len(fields.gap)
+        yield _LAYER.in_words(f"{figure(cells)} cells", f"{thickness}, E*_l {modulus}")
 
-    def in_python(self, state: ExploreState) -> tuple[str, str, str]:
-        """The layer on its base."""
+    def code(self, state: ExploreState) -> AddedCode:
+        """The layer on its base, under a rigid surface."""
         names = ("young", "poisson", "thickness", "base_young", "base_poisson")
-        arguments = [
-            f"{name}={as_code(value)}"
-            for name, value in zip(names, self._constants(state), strict=True)
+        values = young, poisson, thickness, base, of_base = [
+            as_code(each) for each in self._constants(state)
         ]
+        arguments = [f"{name}={value}" for name, value in zip(names, values, strict=True)]
         arguments += ["periodic=True"] * state.periodic
         layered = "\n".join(f"    {each}," for each in arguments)
-        return f"half_space = rl.Layered(\n{layered}\n)\n", "", ""
-
-    def materials(self, state: ExploreState) -> tuple[str, str]:
-        """The layer on its base, under a rigid surface."""
-        young, poisson, thickness, base, of_base = map(as_code, self._constants(state))
         layer = f"E={young} Pa nu={poisson} {thickness} m"
-        return f"{layer} on E={base} Pa nu={of_base}", "rigid"
+        return AddedCode(
+            half_space=f"half_space = rl.Layered(\n{layered}\n)\n",
+            materials=f"{layer} on E={base} Pa nu={of_base}, rigid",
+        )

@@ -10,7 +10,17 @@ from numpy.typing import NDArray
 import roughline as rl
 from roughline.lab.controls import Choice
 from roughline.lab.explore.controls import CHOICES
-from roughline.lab.panels import FORCE, Panel, Points, Series, band, line, marks, theory_lines
+from roughline.lab.panels import (
+    FORCE,
+    Panel,
+    Points,
+    Series,
+    band,
+    joined,
+    line,
+    marks,
+    theory_lines,
+)
 
 
 def over_force(
@@ -36,15 +46,7 @@ def over_force(
 
 UNRESOLVED_3D = "3D, fewer than ten cells touch"
 """Name of loads whose contact the grid decides."""
-BACK = Series(
-    name="back",
-    legend="3D, way back",
-    colour="here",
-    glyphs={
-        "line": {"line_width": 2},
-        "scatter": {"line_width": 1.5, "size": 5, "marker": "square"},
-    },
-)
+BACK = joined("back", "3D, way back", "here", size=5, marker="square")
 """The way back from the present load."""
 
 
@@ -75,13 +77,8 @@ def curve_note(pressed: rl.SurfaceCurve, n: int) -> str:
     return f"marks of the curve on {n}² points{unsure}{unsolved}"
 
 
-_REDUCED = band("line", "1D, mean and range of lines", "light-line", line_width=2.5)
-_SPECTRUM_SERIES = (
-    marks("surface", "the surface", "mark", size=4, line_width=1),
-    line("law", "the law", "here", 2),
-)
-_FORCE_RANGE, _AREA_RANGE = (1e-4, 10.0), (1e-4, 1.3)
 _CURVE_TASK: dict[str, Any] = {
+    "theories": CHOICES["theories"],
     "task": "curve",
     "waits": "the surface is being pressed under every load",
 }
@@ -91,9 +88,8 @@ PANELS = (
         key="stiffness",
         title="Stiffness over force",
         y="stiffness k / (E* L)",
-        lines=(_REDUCED,),
-        theories=CHOICES["theories"],
-        ranges=(_FORCE_RANGE, (1e-3, 3)),
+        lines=(band("line", "1D, mean and range of lines", "light-line", line_width=2.5),),
+        ranges=((1e-4, 10.0), (1e-3, 3)),
         columns=("F̄", "k / (E* L)", "model"),
         **_CURVE_TASK,
     ),
@@ -102,8 +98,7 @@ PANELS = (
         title="Area over force",
         y="real contact area A / A₀",
         lines=(),
-        theories=CHOICES["theories"],
-        ranges=(_FORCE_RANGE, _AREA_RANGE),
+        ranges=((1e-4, 10.0), (1e-4, 1.3)),
         columns=("F̄", "A/A₀", "model"),
         **_CURVE_TASK,
     ),
@@ -113,7 +108,10 @@ PANELS = (
         x="waves along the side, q L / 2π",
         y="spectrum C [m⁴]",
         ranges=((0.8, 300.0), (1e-20, 1e-10)),
-        series=_SPECTRUM_SERIES,
+        series=(
+            marks("surface", "the surface", "mark", size=4, line_width=1),
+            line("law", "the law", "here", 2),
+        ),
         columns=("waves along the side", "C [m⁴]", "law [m⁴]"),
         task="contact",
         waits="the spectrum follows with the whole grid",

@@ -11,14 +11,21 @@ from roughline.lab.explore.controls import CHOICES, NUMBERS
 from roughline.lab.explore.fluid import FluidPhysics
 from roughline.lab.explore.layer import LayerPhysics
 from roughline.lab.explore.panels import PANELS
+from roughline.lab.explore.shear import ShearPhysics
 from roughline.lab.explore.state import Physics
+from roughline.lab.explore.words import STRIP
 from roughline.lab.explore.yielding import YieldingPhysics
 from roughline.lab.panels import Panel
 
-PHYSICS: tuple[type[Physics], ...] = (LayerPhysics, YieldingPhysics, AdhesionPhysics, FluidPhysics)
+PHYSICS: tuple[type[Physics], ...] = (
+    LayerPhysics,
+    YieldingPhysics,
+    AdhesionPhysics,
+    FluidPhysics,
+    ShearPhysics,
+)
 """All kinds, in the order of their ticks."""
-_STRIP = ("stiffness_3d", "area", "pressure", "depth", "force", "roughness")
-_LEADING = 3  # of them, in large figures
+_LEADING = 3  # numbers of the strip, in large figures
 
 
 def numbers() -> dict[str, Number]:
@@ -54,10 +61,9 @@ def owners() -> dict[str, str]:
 
 def declared() -> dict[str, Any]:
     """What the script of the page knows of all kinds and panels."""
-    order = list(_STRIP)
-    for kind in PHYSICS:
-        for key, before in kind.strip.items():
-            order.insert(max(order.index(before) + 1, _LEADING), key)
+    order = [figure.key for figure in STRIP]
+    for figure in (each for kind in PHYSICS for each in kind.strip):
+        order.insert(max(order.index(figure.after) + 1, _LEADING), figure.key)
     kinds = {
         kind.key: {
             "word": kind.word,

@@ -17,10 +17,10 @@ from roughline.comparison.trust import trust_map
 from roughline.lab.controls import ControlError, as_text
 from roughline.lab.explore.controls import CHOICES
 from roughline.lab.explore.panels import curve_note, loads, selected_points
-from roughline.lab.explore.pressing import CURVE_POINTS, bearable_forces, pressed_under
 from roughline.lab.explore.reading import usable_state
 from roughline.lab.explore.state import ExploreState
 from roughline.lab.explore.words import (
+    LINES,
     contact_words,
     line_words,
     load_rows,
@@ -37,7 +37,6 @@ from roughline.question.loading import UNLOADING
 from roughline.theories.theory import ONE_MATERIAL_ONLY, why_not
 
 _COARSE_POINTS = 128  # along a side while a slider moves
-_LINES = 20  # whose mean stiffness stands for the reduced model
 _SPRINGS_PER_POINT = 32
 _FEWEST_SPRINGS = 2**13
 _POINTED_AT = ("height", "area", "gap")  # maps of which points are told; what is shown is sent too
@@ -53,61 +52,48 @@ _LINE_FORCES = np.geomspace(1e-4, 10, 41)
 def reduced(arguments: Arguments, progress: Progress) -> bytes:
     """Mean stiffness of lines over force, and at the load of the state."""
     state, refused = usable_state(arguments)
-    return _message(state, refused, line(state))
-
-
-def line(state: ExploreState) -> dict[str, Any]:
-    """What the page has of lines."""
-    lines = _state_lines(state, _LINES)
     forces = np.unique([*_LINE_FORCES, state.F])
-    stiffness = np.array([_press_bar(each, state, forces).stiffness_bar for each in lines])
+    lines = _lines(state.spectrum(state.n), state.n, state.seed)
+    stiffness = np.array([_press_bar(each, state, forces) for each in lines])
     mean = stiffness.mean(axis=0)  # without its interval, which would take as long as all lines
-    here = int(np.searchsorted(forces, state.F))
+    here = float(mean[np.searchsorted(forces, state.F)])
     rows = [[*row, "1D"] for row in number_rows(forces, mean)]
     points = {"x": forces, "y": mean, "low": stiffness.min(axis=0), "high": stiffness.max(axis=0)}
-    filled = PanelContent({"line": points}, rows, legends={"line": _line_legend(state)})
-    return {
-        "panels": {"stiffness": filled},
-        "stiffness_bar_1d": float(mean[here]),
-        "strip": line_words(state, float(mean[here]), _LINES),
+    without = unlike(state)
+    legend = f"1D {without}, mean and range" if without else "1D, mean and range of lines"
+    content = {
+        "panels": {"stiffness": PanelContent({"line": points}, rows, legends={"line": legend})},
+        "stiffness_bar_1d": here,
+        "strip": [line_words(state, here)],
     }
+    return _message(state, refused, content)
 
 
 def coarse(arguments: Arguments, progress: Progress) -> bytes:
     """The contact on a coarse grid, while a slider moves."""
-    state, refused = usable_state(arguments)
-    n = state.points(_COARSE_POINTS)
-    found = contact(state, n, progress, is_coarse=True)
-    return _message(state, refused, *found, arguments.get("heights"))
+    return _contact(arguments, progress, is_coarse=True)
 
 
 def full(arguments: Arguments, progress: Progress) -> bytes:
     """The contact on the grid of the state."""
-    state, refused = usable_state(arguments)
-    found = contact(state, state.n, progress, is_coarse=False)
-    return _message(state, refused, *found, arguments.get("heights"))
+    return _contact(arguments, progress, is_coarse=False)
 
 
 def curve(arguments: Arguments, progress: Progress) -> bytes:
     """Stiffness and area over force of the surface, and of theories."""
     state, refused = usable_state(arguments)
-    return _message(state, refused, {"panels": over_loads(state, progress)})
-
-
-def over_loads(state: ExploreState, progress: Progress) -> dict[str, PanelContent]:
-    """What panels show of the surface under many loads, and of theories."""
-    surface = state.surface(state.points(CURVE_POINTS))
-    pressed = pressed_under(state, surface, bearable_forces(state, _CURVE_FORCES), progress)
+    surface = state.surface_of_curves
+    pressed = state.press(surface, progress, state.bearable(_CURVE_FORCES))
     forces, note = state.force_bars(pressed), curve_note(pressed, len(surface.heights))
     theories, remarks = _theories(state, surface)
-    panels = {}
-    for panel, values in state.over_force(pressed).items():
-        filled = PanelContent(
-            loads(forces, values, pressed), load_rows(forces, values, pressed, "3D")
+    panels = {
+        panel: PanelContent(
+            {**loads(forces, values, pressed), **theories[panel]},
+            load_rows(forces, values, pressed, "3D"),
+            note,
         )
-        filled.series |= theories[panel]
-        filled.caption = note
-        panels[panel] = filled
+        for panel, values in state.over_force(pressed).items()
+    }
     panels["area"].remarks = " ".join(f"{each}." for each in remarks)
     for each in state.added:
         for panel, more in each.beside_curve(pressed, state).items():
@@ -116,7 +102,7 @@ def over_loads(state: ExploreState, progress: Progress) -> dict[str, PanelConten
     for panel, (low, high) in _LEAST_AXIS_RANGES.items():
         marks = [each["y"] for name, each in panels[panel].series.items() if "theory" not in name]
         panels[panel].y = span(np.concatenate(marks), low, high)
-    return panels
+    return _message(state, refused, {"panels": panels})
 
 
 def drawn_forces(state: ExploreState) -> NDArray[np.float64]:
@@ -124,7 +110,7 @@ def drawn_forces(state: ExploreState) -> NDArray[np.float64]:
 
     [1]
     """
-    rising = np.union1d(bearable_forces(state, _CURVE_FORCES), state.F)
+    rising = np.union1d(state.bearable(_CURVE_FORCES), state.F)
     if not state.yields:
         return rising
     return np.concatenate([rising[rising <= state.F], state.F * np.array(UNLOADING)])
@@ -141,32 +127,21 @@ def further(arguments: Arguments, progress: Progress) -> bytes:
     return _message(state, refused, content, maps)
 
 
-def contact(
-    state: ExploreState, n: int, progress: Progress, *, is_coarse: bool
-) -> tuple[dict[str, Any], dict[str, Map]]:
+def _contact(arguments: Arguments, progress: Progress, *, is_coarse: bool) -> bytes:
     """The contact on a grid: words and maps; unless coarse with what finer grids change."""
     started = time.perf_counter()
-    surface = state.surface(n)
-    key = replace(state, shown=ExploreState.shown), n, is_coarse
+    state, refused = usable_state(arguments)
+    n = state.points(_COARSE_POINTS) if is_coarse else state.n
+    surface, key = state.surface(n), (replace(state, shown=ExploreState.shown), n, is_coarse)
     if key not in _last:
-        pressed = pressed_under(
-            state,
-            surface,
-            np.array([state.F]),
-            progress,
-            fields=True,
-            grid_error=not is_coarse,
-            measures=state.measures,
-        )
+        asked = {"fields": True, "grid_error": not is_coarse, "measures": state.measures}
+        pressed = state.press(surface, progress, [state.F], **asked)
         _last.clear()
         _last[key] = pressed, time.perf_counter() - started
     pressed, seconds = _last[key]
-    fields = pressed.fields[0]
-    maps = {} if fields is None else _maps(state, surface, fields)
-    strip = contact_words(pressed, fields, surface, state)
-    is_known, force = pressed.converged, state.force_bars(pressed)
+    fields, force = pressed.fields[0], state.force_bars(pressed)
     panels = {
-        panel: PanelContent({"here": selected_points(force, values, is_known)})
+        panel: PanelContent({"here": selected_points(force, values, pressed.converged)})
         for panel, values in state.over_force(pressed).items()
     }
     if not is_coarse:
@@ -176,13 +151,14 @@ def contact(
         "is_coarse": is_coarse,
         "heights": digest((state.spectrum(n), n, state.seed)),
         "panels": panels,
-        "strip": strip,
+        "strip": list(contact_words(pressed, fields, surface, state)),
         "facts": [x.brief for x in facts_on_press(surface, pressed) if x.weight != "note"],
         "stiffness_bar_3d": float(state.stiffness_bars(pressed.stiffness[0])),
         "scatter": _scatter(state),
         "status": status(pressed, n, seconds, is_coarse=is_coarse),
     }
-    return content, maps
+    maps = {} if fields is None else _maps(state, surface, fields)
+    return _message(state, refused, content, maps, arguments.get("heights"))
 
 
 def _maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) -> dict[str, Map]:
@@ -208,7 +184,7 @@ def _maps(state: ExploreState, surface: rl.Surface, fields: rl.Fields) -> dict[s
 
 def _scatter(state: ExploreState) -> float | None:
     """How far single surfaces scatter about their mean stiffness, where that is known. [1]"""
-    if state.added or state.periodic:
+    if unlike(state) or state.periodic:
         return None
     try:
         return trust_map().at(state.D_f, state.F, 1 / state.roll_off).scatter
@@ -227,14 +203,6 @@ def _message(
 
     Heights do not cross the line again if the page has held them, by the key of their surface.
     """
-    header, maps = {**_settled(state, refused), **content}, maps or {}
-    is_held = isinstance(heights_held, list) and content.get("heights") in heights_held
-    above = {"gap": "height"} if "gap" in maps else {}  # both together are the other body
-    return drawn(header, content.get("panels", {}), maps, above, ["height"] * is_held)
-
-
-def _settled(state: ExploreState, refused: Mapping[str, str]) -> dict[str, Any]:
-    """What the page is told of its controls: what counts, and what is not used and why."""
     if state.cutoff not in (ExploreState.cutoff, state.cutoff_used):
         finest = f"{as_text(state.shortest)} sides"
         why = f"{state.n} points carry no waves shorter than {finest}; that is used meanwhile"
@@ -243,35 +211,30 @@ def _settled(state: ExploreState, refused: Mapping[str, str]) -> dict[str, Any]:
     values = {name: getattr(state, name) for name in names} | {"cutoff": state.cutoff_used}
     for each in state.added:
         values |= each.numbers
-    return {
+    header = {
         "state": state.address(),
         "numbers": {name: float(value) for name, value in values.items()},
         "lows": {"cutoff": state.shortest},
         "refused": refused,
+        **content,
     }
-
-
-def _line_legend(state: ExploreState) -> str:
-    """What the line of the reduced model is called, with what it leaves out."""
-    without = unlike(state)
-    return f"1D {without}, mean and range" if without else "1D, mean and range of lines"
-
-
-def _state_lines(state: ExploreState, count: int) -> tuple[rl.Line, ...]:
-    """Lines of the spectrum of a state, with the waves of its surface. [m]"""
-    springs = max(_FEWEST_SPRINGS, _SPRINGS_PER_POINT * state.n)
-    return _lines(state.spectrum(state.n), springs, state.seed, count)
+    maps = maps or {}
+    is_held = isinstance(heights_held, list) and content.get("heights") in heights_held
+    above = {"gap": "height"} if "gap" in maps else {}  # both together are the other body
+    return drawn(header, content.get("panels", {}), maps, above, ["height"] * is_held)
 
 
 @lru_cache(maxsize=2)
-def _lines(spectrum: rl.SelfAffine, springs: int, seed: int, count: int) -> tuple[rl.Line, ...]:
-    return tuple(spectrum.line(springs, seed + i) for i in range(count))
+def _lines(spectrum: rl.SelfAffine, n: int, seed: int) -> tuple[rl.Line, ...]:
+    """Lines of a spectrum, with the waves of a surface on n points along a side. [m]"""
+    springs = max(_FEWEST_SPRINGS, _SPRINGS_PER_POINT * n)
+    return tuple(spectrum.line(springs, seed + i) for i in range(LINES))
 
 
-def _press_bar(line: rl.Line, state: ExploreState, force_bars: NDArray[np.float64]) -> rl.LineCurve:
-    """Press a line under dimensionless forces, scaled with its own rms height."""
+def _press_bar(line: rl.Line, state: ExploreState, force_bars: NDArray[np.float64]) -> Any:
+    """Stiffness k / (E* L) of a line under forces that are scaled with its own rms height."""
     scale = state.E_star * line.rms_height * line.length
-    return rl.press(line, E_star=state.E_star, forces=force_bars * scale)
+    return rl.press(line, E_star=state.E_star, forces=force_bars * scale).stiffness_bar
 
 
 def _spectrum(surface: rl.Surface, state: ExploreState) -> PanelContent:

@@ -39,9 +39,9 @@ def read_state(texts: Texts) -> ExploreState:
     for key, control in controls.items():
         state = replace(state, **{key: control.read_in(read_as, state)})
     _refuse_waves(state)
+    state = replace(state, F=load.read_in(texts, state))
     added = (each for kind in physics.PHYSICS if (each := kind.read(texts, state)))
     state = replace(state, added=tuple(added))
-    state = replace(state, F=load.read_in(texts, state))
     _refuse_together(state)
     return replace(state, typed_texts=texts)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any, ClassVar, Literal, Self
@@ -32,10 +32,45 @@ from roughline.units import in_si
 SURFACE_KEYS = ("D_f", "roll_off", "cutoff", "rms", "h", "slope", "seed", "n")
 """Keys of the controls that make the surface."""
 
-Item = dict[str, str]
-"""One number of the answer strip: its key, symbol, value, unit and meaning."""
+CURVE_POINTS = 256
+"""Points along a side of the surface whose whole curve is computed."""
+_COARSE_POINTS = 128  # of what is first followed on fewer
+_LARGEST_FORCE_SHARE = 0.9  # of the force that all of the area bears, where curves end
+
+FilledPanels = dict[str, PanelContent]
+"""What panels show, by their keys."""
+StripWords = Iterable[dict[str, str]]
+"""Numbers of the answer strip in words."""
 PageAnswer = tuple[dict[str, Any], Mapping[str, Map]]
 """What a task tells the page, and maps."""
+
+
+@dataclass(frozen=True)
+class StripFigure:
+    """A number of the answer strip, as it is declared."""
+
+    key: str
+    symbol: str
+    meaning: str
+    after: str = ""  # key of that which it follows
+
+    def in_words(self, value: str, below: str = "", more: str = "") -> dict[str, str]:
+        """It in words, what stands below, and what more it means."""
+        words = {"key": self.key, "symbol": self.symbol, "value": value}
+        return words | {"below": below, "meaning": self.meaning + more}
+
+
+@dataclass(frozen=True)
+class AddedCode:
+    """What a physics adds to the code of a state."""
+
+    half_space: str = ""  # lines of Python that make it, in the place of the usual one
+    before: str = ""  # lines before the press
+    arguments: str = ""  # of the press, in the place of its force
+    after: str = ""  # lines after it
+    materials: str = ""  # both bodies as the command calls them, in the place of the modulus
+    command: tuple[str, ...] = ()  # more arguments of `roughline press`
+    left_out: str = ""  # what the command leaves out
 
 
 class Physics:
@@ -55,11 +90,9 @@ class Physics:
     excludes: ClassVar[Mapping[str, str]] = {}  # why it does not go with others, by their keys
     maps: ClassVar[Mapping[str, str]] = {}  # those it adds, with the words that choose them
     opens: ClassVar[str] = ""  # the map that is shown when it is added
-    strip: ClassVar[Mapping[str, str]] = {}  # its numbers, each with that which it follows
+    strip: ClassVar[tuple[StripFigure, ...]] = ()  # its numbers
     panels: ClassVar[tuple[Panel, ...]] = ()
     series: ClassVar[Mapping[str, tuple[Series, ...]]] = {}  # that it adds to other panels
-    # arguments of a press in Python for its half-space, and the contact modulus of that
-    body_in_python: ClassVar[tuple[str, str] | None] = None
     follows: ClassVar[Literal["", "surface", "load"]] = ""  # with which its task is asked anew
 
     @classmethod
@@ -87,9 +120,6 @@ class Physics:
     def half_space(self, state: ExploreState) -> rl.HalfSpace | None:
         """What the surface is pressed into, if it is of more than one material."""
 
-    def materials(self, state: ExploreState) -> tuple[str, str] | None:
-        """Both bodies as a question calls them, if a contact modulus does not say them."""
-
     def is_resolved(self, state: ExploreState, n: int) -> bool:
         """Whether so many points along a side resolve it."""
         return True
@@ -102,15 +132,13 @@ class Physics:
         """What its panels show of loads, by their keys."""
         return {}
 
-    def beside_curve(
-        self, pressed: rl.SurfaceCurve, state: ExploreState
-    ) -> dict[str, PanelContent]:
+    def beside_curve(self, pressed: rl.SurfaceCurve, state: ExploreState) -> FilledPanels:
         """What it adds to panels of the curve, by their keys."""
         return {}
 
-    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> list[Item]:
+    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> StripWords:
         """Its numbers of the answer strip at the load."""
-        return []
+        return ()
 
     def added_maps(self, fields: rl.Fields, state: ExploreState) -> dict[str, Map]:
         """Its maps, also those in the place of others."""
@@ -124,13 +152,9 @@ class Physics:
         """Answer its task: what comes later than the contact."""
         return {}, {}
 
-    def in_python(self, state: ExploreState) -> tuple[str, str, str]:
-        """Return lines before the press, arguments in the place of its own, and lines after."""
-        return "", "", ""
-
-    def in_command(self, state: ExploreState) -> tuple[list[str], str]:
-        """Return arguments of `roughline press`, and what it leaves out."""
-        return [], ""
+    def code(self, state: ExploreState) -> AddedCode:
+        """What it adds to the code of a state."""
+        return AddedCode()
 
 
 @dataclass(frozen=True)
@@ -191,6 +215,11 @@ class ExploreState:
         return _surface(self.spectrum(n), n, self.seed)
 
     @property
+    def surface_of_curves(self) -> rl.Surface:
+        """The surface whose whole curve is computed. [m]"""
+        return self.surface(self.points(CURVE_POINTS))
+
+    @property
     def rms_height(self) -> float:
         """Rms height, given or from the rms slope on the grid. [m]"""
         if self.rms == "height":
@@ -218,17 +247,14 @@ class ExploreState:
         layered = next(filter(None, (each.half_space(self) for each in self.added)), None)
         return layered or rl.Homogeneous(self.E_star, periodic=self.periodic)
 
-    @property
-    def materials(self) -> tuple[str, str] | None:
-        """Both bodies as a question calls them, if a contact modulus does not say them."""
-        return next(filter(None, (each.materials(self) for each in self.added)), None)
-
-    @property
-    def body_in_python(self) -> tuple[str, str]:
-        """Arguments of a press in Python for what is pressed into, and its contact modulus."""
-        plain = "E_star=E_star, periodic=True" if self.periodic else "E_star=E_star"
-        added = filter(None, (each.body_in_python for each in self.added))
-        return next(added, (plain, "E_star"))
+    def press(
+        self, surface: rl.Surface, progress: Progress, force_bar: Any = None, **others: Any
+    ) -> rl.SurfaceCurve:
+        """Press a surface of the state under dimensionless forces, or under what others say."""
+        if force_bar is not None:
+            others["forces"] = self.force(np.asarray(force_bar))
+        pressed = {"half_space": self.half_space, "law": self.law, **others}
+        return rl.press(surface, **pressed, throw=False, progress=progress)
 
     def typed(self, key: str) -> str:
         """A text with a unit as it was typed, if it counts; else none."""
@@ -249,6 +275,11 @@ class ExploreState:
     def measures(self) -> tuple[rl.Measure, ...]:
         """What is measured of every load."""
         return tuple(measure for each in self.added for measure in each.measures())
+
+    def staged(self, refines: bool) -> tuple[int, bool]:
+        """Points along a side of what is followed twice, and whether finer ones come later."""
+        coarse, finer = self.points(_COARSE_POINTS), self.points(CURVE_POINTS)
+        return (finer, False) if refines else (coarse, coarse < finer)
 
     def points(self, fewest: int) -> int:
         """The fewest points along a side, from so many on, that resolve all, if any do."""
@@ -282,12 +313,13 @@ class ExploreState:
     @property
     def most_force_bar(self) -> float:
         """Dimensionless force that all of the area bears. [1]"""
-        law = self.law
-        return (
-            math.inf
-            if law is None
-            else Bounds.of(law).largest_force(self.length**2) / self.force(1.0)
-        )
+        if (law := self.law) is None:
+            return math.inf
+        return Bounds.of(law).largest_force(self.length**2) / float(self.force(1.0))
+
+    def bearable(self, force_bars: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Those of dimensionless forces that curves of the surface go to. [1]"""
+        return force_bars[force_bars < _LARGEST_FORCE_SHARE * self.most_force_bar]
 
     def texts(self) -> dict[str, str]:
         """All that is set, as texts by the keys of the controls."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,26 +10,54 @@ from numpy.typing import NDArray
 
 import roughline as rl
 from roughline.contact.quantities import RESOLVED_FROM
-from roughline.lab.explore.state import ExploreState, Item
+from roughline.lab.explore.state import ExploreState, StripFigure, StripWords
 from roughline.margins.grid import intervals_of_grid
 from roughline.report.values import figure, up_to_three_digits
 from roughline.units import supported_digits
 
 _DIGITS = 3
+LINES = 20
+"""How many lines stand for the reduced model, by their mean stiffness."""
+
+_LINES = StripFigure(
+    "stiffness_1d",
+    "k (1D)",
+    f"Stiffness of the reduced model, mean of {LINES} lines with the same waves. It is made for "
+    "the free half-space of one material, dry and elastic.",
+)
+_STIFFNESS = StripFigure(
+    "stiffness_3d",
+    "stiffness k",
+    "Stiffness of the full model: the exact slope dF/dd. The interval shows how far finer grids "
+    "may change it.",
+)
+_AREA = StripFigure(
+    "area",
+    "contact area",
+    "Real contact area over the nominal one, corrected for the steps of its outline. The interval "
+    "shows how much finer grids, with finer roughness, may change it.",
+)
+_PRESSURE = StripFigure(
+    "pressure",
+    "pressure p_c",
+    "Mean pressure within the contact, over the cells that touch. The interval is that of the "
+    "contact area.",
+)
+_DEPTH = StripFigure("depth", "d", "Depth since the first touch of the highest summit.")
+_FORCE = StripFigure(
+    "force",
+    "F",
+    "Total force on the surface, for the side and the contact modulus that are set.",
+)
+_ROUGHNESS = StripFigure("roughness", "h", "Rms height; the rms slope on this grid is given below.")
+STRIP = (_STIFFNESS, _AREA, _PRESSURE, _DEPTH, _FORCE, _ROUGHNESS)
+"""Numbers of the full model, in their order; that of the reduced one is told as a comparison."""
 
 
-def line_words(state: ExploreState, stiffness: float, lines: int) -> list[Item]:
+def line_words(state: ExploreState, stiffness: float) -> dict[str, str]:
     """What the reduced model gives at the load."""
-    return [
-        item(
-            key="stiffness_1d",
-            symbol="k (1D)",
-            value=up_to_three_digits(stiffness * state.E_star * state.length, None, "N/m"),
-            meaning=f"Stiffness of the reduced model, mean of {lines} lines with the same waves. "
-            "It is made for the free half-space of one material, dry and elastic.",
-            below=unlike(state),
-        )
-    ]
+    in_unit = up_to_three_digits(stiffness * state.E_star * state.length, None, "N/m")
+    return _LINES.in_words(in_unit, unlike(state))
 
 
 def unlike(state: ExploreState) -> str:
@@ -38,94 +67,46 @@ def unlike(state: ExploreState) -> str:
 
 def contact_words(
     pressed: rl.SurfaceCurve, fields: rl.Fields | None, surface: rl.Surface, state: ExploreState
-) -> list[Item]:
+) -> StripWords:
     """What the full model gives at the load."""
     if not pressed.converged[0] or fields is None:
-        reason = rl.Status(pressed.status[0]).reason
-        return [
-            item("stiffness_3d", "stiffness k", "not solved", f"The load was not solved: {reason}")
-        ]
-    return [
-        *_stiffness_and_area(pressed, state),
-        *_pressure_and_depth(pressed, fields, state),
-        item(
-            key="roughness",
-            symbol="h",
-            value=up_to_three_digits(surface.rms_height, None, "m"),
-            meaning="Rms height; the rms slope on this grid is given below.",
-            below=f"slope {figure(surface.rms_slope)}",
-        ),
-        *(word for each in state.added for word in each.words(pressed, fields, state)),
-    ]
+        unsolved = f"The load was not solved: {rl.Status(pressed.status[0]).reason}"
+        yield replace(_STIFFNESS, meaning=unsolved).in_words("not solved")
+        return
+    in_contact = float(fields.pressure[fields.contact].mean())
+    yield from _with_intervals(pressed, in_contact, state)
+    height, force, depth = surface.rms_height, float(pressed.force[0]), float(pressed.depth[0])
+    yield _DEPTH.in_words(f"{figure(depth / height)} h", up_to_three_digits(depth, None, "m"))
+    mean = up_to_three_digits(force / state.length**2, None, "Pa")
+    yield _FORCE.in_words(up_to_three_digits(force, None, "N"), f"{mean} over the nominal area")
+    yield _ROUGHNESS.in_words(
+        up_to_three_digits(height, None, "m"), f"slope {figure(surface.rms_slope)}"
+    )
+    for each in state.added:
+        yield from each.words(pressed, fields, state)
 
 
-def _stiffness_and_area(pressed: rl.SurfaceCurve, state: ExploreState) -> list[Item]:
+def _with_intervals(pressed: rl.SurfaceCurve, in_contact: float, state: ExploreState) -> StripWords:
+    """Stiffness, area and pressure, with what finer grids may change."""
     intervals, unsure = intervals_of_grid(pressed), not pressed.resolved[0]
     stiffness, area = float(pressed.stiffness[0]), float(pressed.area_fraction_corrected[0])
-    of_k, of_area = (
-        (first(intervals.stiffness), first(intervals.area)) if intervals else (None, None)
-    )
+    of_k = first(intervals.stiffness) if intervals else None
+    of_area = first(intervals.area) if intervals else None
     sticks = pressed.law is not None and not pressed.law.only_pushes
-    return [
-        item(
-            key="stiffness_3d",
-            symbol="stiffness k",
-            value=rounded_value(stiffness, of_k, "N/m") + (" *" if unsure else ""),
-            meaning="Stiffness of the full model: the exact slope dF/dd. The interval shows how "
-            "far finer grids may change it."
-            + " It is that at a given reach of the pull: along a branch the slope is less." * sticks
-            + (f" Fewer than {RESOLVED_FROM} cells touch: the grid decides." if unsure else ""),
-            below=beside_stiffness(stiffness, of_k, state),
-        ),
-        item(
-            key="area",
-            symbol="contact area",
-            value=rounded_value(area, of_area, "%"),
-            meaning="Real contact area over the nominal one, corrected for the steps of its "
-            "outline. The interval shows how much finer grids, with finer roughness, may change "
-            "it.",
-            below=rounded_ends(area, of_area, "%"),
-        ),
-    ]
-
-
-def _pressure_and_depth(
-    pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState
-) -> list[Item]:
-    force, depth = float(pressed.force[0]), float(pressed.depth[0])
-    in_contact = float(fields.pressure[fields.contact].mean())
-    over_hardness = f", {figure(in_contact / pressed.hardness)} H" if pressed.hardness else ""
-    intervals, area = intervals_of_grid(pressed), float(pressed.area_fraction_corrected[0])
+    rounded, below = stiffness_with_ends(stiffness, of_k, state)
+    yield _STIFFNESS.in_words(
+        rounded + " *" * unsure,
+        below,
+        " It is that at a given reach of the pull: along a branch the slope is less." * sticks
+        + f" Fewer than {RESOLVED_FROM} cells touch: the grid decides." * unsure,
+    )
+    yield _AREA.in_words(*with_ends(area, of_area, "%"))
     ends = None
-    if intervals and (of_area := first(intervals.area)) and of_area[0] > 0:
-        ends = (in_contact * area / of_area[1], in_contact * area / of_area[0])
-    return [
-        item(
-            key="pressure",
-            symbol="pressure p_c",
-            value=rounded_value(in_contact, ends, "Pa"),
-            meaning="Mean pressure within the contact, over the cells that touch. The interval is "
-            "that of the contact area.",
-            below=after_ends(in_contact, ends, "Pa", f"{figure(in_contact / state.E_star)} E*")
-            + over_hardness,
-        ),
-        item(
-            key="depth",
-            symbol="d",
-            value=f"{figure(depth / pressed.rms_height)} h",
-            meaning="Depth since the first touch of the highest summit.",
-            below=up_to_three_digits(depth, None, "m"),
-        ),
-        item(
-            key="force",
-            symbol="F",
-            value=up_to_three_digits(force, None, "N"),
-            meaning="Total force on the surface, for the side and the contact modulus that are "
-            "set.",
-            below=f"{up_to_three_digits(force / state.length**2, None, 'Pa')} over the nominal "
-            "area",
-        ),
-    ]
+    if of_area and of_area[0] > 0:
+        ends = in_contact * area / of_area[1], in_contact * area / of_area[0]
+    over = [f"{figure(in_contact / state.E_star)} E*"]
+    over += [f"{figure(in_contact / pressed.hardness)} H"] if pressed.hardness else []
+    yield _PRESSURE.in_words(*with_ends(in_contact, ends, "Pa", *over))
 
 
 def status(pressed: rl.SurfaceCurve, n: int, seconds: float, *, is_coarse: bool) -> str:
@@ -137,26 +118,20 @@ def status(pressed: rl.SurfaceCurve, n: int, seconds: float, *, is_coarse: bool)
     )
 
 
-def rounded_value(value: float, ends: tuple[float, float] | None, unit: str) -> str:
-    """A value with the digits that its interval supports, and its unit."""
-    return up_to_three_digits(value, ends, unit).partition(" (")[0]
+def with_ends(
+    value: float, ends: tuple[float, float] | None, unit: str, *more: str
+) -> tuple[str, str]:
+    """A value with the digits that its interval supports; and that, as rounded, with more."""
+    rounded, bracket, interval = up_to_three_digits(value, ends, unit).partition(" (")
+    return rounded, ", ".join(filter(None, (bracket.strip() + interval, *more)))
 
 
-def rounded_ends(value: float, ends: tuple[float, float] | None, unit: str) -> str:
-    """The interval of a value in brackets, rounded as the value is; nothing where there is none."""
-    _, bracket, interval = up_to_three_digits(value, ends, unit).partition(" (")
-    return bracket.strip() + interval
-
-
-def after_ends(value: float, ends: tuple[float, float] | None, unit: str, more: str) -> str:
-    """The interval of a value, and more of it."""
-    return ", ".join(filter(None, (rounded_ends(value, ends, unit), more)))
-
-
-def beside_stiffness(value: float, ends: tuple[float, float] | None, state: ExploreState) -> str:
-    """The interval of a stiffness, and what it is over the modulus and the side."""
+def stiffness_with_ends(
+    value: float, ends: tuple[float, float] | None, state: ExploreState
+) -> tuple[str, str]:
+    """A stiffness; and its interval, and what it is over the modulus and the side."""
     over_side = figure(state.stiffness_bars(value), supported_digits(value, ends, _DIGITS))
-    return after_ends(value, ends, "N/m", f"k / (E* L) {over_side}")
+    return with_ends(value, ends, "N/m", f"k / (E* L) {over_side}")
 
 
 def first(ends: Any) -> tuple[float, float] | None:
@@ -180,8 +155,3 @@ def load_rows(
         elif not pressed.resolved[i] and pressed.force[i] > 0:
             row[1] += " *"
     return rows
-
-
-def item(key: str, symbol: str, value: str, meaning: str, below: str = "") -> Item:
-    """One number of the answer strip."""
-    return {"key": key, "symbol": symbol, "value": value, "below": below, "meaning": meaning}

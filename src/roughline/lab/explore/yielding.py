@@ -10,15 +10,41 @@ import numpy as np
 import roughline as rl
 from roughline.lab.controls import Number, as_code
 from roughline.lab.explore.panels import BACK, selected_points
-from roughline.lab.explore.pressing import CURVE_POINTS, pressed_under
-from roughline.lab.explore.state import ExploreState, Item, PageAnswer, Physics
-from roughline.lab.explore.words import beside_stiffness, first, item, load_rows, rounded_value
+from roughline.lab.explore.state import (
+    AddedCode,
+    ExploreState,
+    FilledPanels,
+    PageAnswer,
+    Physics,
+    StripFigure,
+    StripWords,
+)
+from roughline.lab.explore.words import first, load_rows, stiffness_with_ends
 from roughline.lab.panels import PanelContent, marks
 from roughline.lab.server.tasks import Progress
 from roughline.margins.grid import intervals_of_grid
 from roughline.question.loading import UNLOADING
 from roughline.report.values import figure, up_to_three_digits
 
+_UNLOADING = StripFigure(
+    "unloading",
+    "k_u",
+    "Stiffness on unloading: all of the contact springs back, while on loading the spots at the "
+    "hardness bear no more. Ultrasound and currents depend on it.",
+    after="stiffness_3d",
+)
+_PLASTIC = StripFigure(
+    "plastic",
+    "plastic",
+    "Share of the contact that is at the hardness; the hardness is given below.",
+    after="area",
+)
+_INDENTATION = StripFigure(
+    "indentation",
+    "indentation",
+    "Largest permanent indentation, which remains after unloading.",
+    after="depth",
+)
 _IN_PYTHON = """print("unloading_stiffness", curve.unloading_stiffness[0], "N/m")
 print("plastic_fraction", curve.plastic_fraction[0])
 print("largest indentation over rms height", curve.indentation[0] / surface.rms_height)
@@ -54,7 +80,7 @@ class YieldingPhysics(Physics):
         ),
     )
     unlike = "without yield"
-    strip: ClassVar = {"unloading": "stiffness_3d", "plastic": "area", "indentation": "depth"}
+    strip = (_UNLOADING, _PLASTIC, _INDENTATION)
     series: ClassVar = {
         "stiffness": (
             marks("unloading", "3D, on unloading", "mark", marker="triangle", size=7, fill_alpha=0),
@@ -73,54 +99,29 @@ class YieldingPhysics(Physics):
         """No more than the hardness."""
         return rl.Yielding(self.hardness(state))
 
-    def beside_curve(
-        self, pressed: rl.SurfaceCurve, state: ExploreState
-    ) -> dict[str, PanelContent]:
+    def beside_curve(self, pressed: rl.SurfaceCurve, state: ExploreState) -> FilledPanels:
         """The stiffness on unloading of every load."""
-        forces, values = (
-            state.force_bars(pressed),
-            state.stiffness_bars(pressed.unloading_stiffness),
-        )
+        forces = state.force_bars(pressed)
+        values = state.stiffness_bars(pressed.unloading_stiffness)
         rows = load_rows(forces, values, pressed, "3D, on unloading")
         return {"stiffness": PanelContent({"unloading": selected_points(forces, values)}, rows)}
 
-    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> list[Item]:
+    def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> StripWords:
         """Stiffness on unloading, share of the contact that yields, and indentation."""
         intervals, unloading = intervals_of_grid(pressed), float(pressed.unloading_stiffness[0])
         ends = first(intervals.unloading) if intervals else None
+        yield _UNLOADING.in_words(*stiffness_with_ends(unloading, ends, state))
+        plastic, hardness = float(pressed.plastic_fraction[0]), self.hardness(state)
+        in_unit = up_to_three_digits(hardness, None, "Pa")
+        yield _PLASTIC.in_words(f"{figure(100 * plastic)}%", f"H {in_unit}")
         indentation = float(pressed.indentation[0])
-        return [
-            item(
-                key="unloading",
-                symbol="k_u",
-                value=rounded_value(unloading, ends, "N/m"),
-                meaning="Stiffness on unloading: all of the contact springs back, while on "
-                "loading the spots at the hardness bear no more. Ultrasound and currents depend "
-                "on it.",
-                below=beside_stiffness(unloading, ends, state),
-            ),
-            item(
-                key="plastic",
-                symbol="plastic",
-                value=f"{figure(100 * float(pressed.plastic_fraction[0]))}%",
-                meaning="Share of the contact that is at the hardness; the hardness is given "
-                "below.",
-                below=f"H {up_to_three_digits(self.hardness(state), None, 'Pa')}",
-            ),
-            item(
-                key="indentation",
-                symbol="indentation",
-                value=f"{figure(indentation / pressed.rms_height)} h",
-                meaning="Largest permanent indentation, which remains after unloading.",
-                below=up_to_three_digits(indentation, None, "m"),
-            ),
-        ]
+        in_unit = up_to_three_digits(indentation, None, "m")
+        yield _INDENTATION.in_words(f"{figure(indentation / pressed.rms_height)} h", in_unit)
 
     def further(self, state: ExploreState, refines: bool, progress: Progress) -> PageAnswer:
         """Follow the way back from the load to none."""
         forces = state.F * np.array([1.0, *UNLOADING])
-        surface = state.surface(state.points(CURVE_POINTS))
-        pressed = pressed_under(state, surface, forces, progress, measures=state.measures)
+        pressed = state.press(state.surface_of_curves, progress, forces, measures=state.measures)
         values = state.over_force(pressed)
         values["stiffness"] = state.stiffness_bars(pressed.unloading_stiffness)
         panels = {
@@ -132,17 +133,14 @@ class YieldingPhysics(Physics):
         }
         return {"panels": panels}, {}
 
-    def in_python(self, state: ExploreState) -> tuple[str, str, str]:
+    def code(self, state: ExploreState) -> AddedCode:
         """The hardness, and the way back."""
         over = f"{as_code(self.hardness_bar)} * E_star * surface.rms_slope"
         path = f"[force * share for share in {(1.0, *UNLOADING)}]"  # the last ones unload
-        before = f"hardness = {state.in_python('hardness_bar', 'Pa', over)}  # Pa\n"
-        return before, f"hardness=hardness, forces={path}", _IN_PYTHON
-
-    def in_command(self, state: ExploreState) -> tuple[list[str], str]:
-        """The hardness, and the way back."""
-        return [
-            "--hardness",
-            state.in_words("hardness_bar", "Pa", self.hardness(state)),
-            "--unload",
-        ], ""
+        in_words = state.in_words("hardness_bar", "Pa", self.hardness(state))
+        return AddedCode(
+            before=f"hardness = {state.in_python('hardness_bar', 'Pa', over)}  # Pa\n",
+            arguments=f"hardness=hardness, forces={path}",
+            after=_IN_PYTHON,
+            command=("--hardness", in_words, "--unload"),
+        )

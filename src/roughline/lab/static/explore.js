@@ -27,7 +27,7 @@ export async function open(link, address, said) {
 
 class Explore {
   #link; #address; #root = document.querySelector("#explore");
-  #controls; #plots; #maps; #waiting; #rest = null; #strip; #last = null; #fromCursor = false; #force = 0.1;
+  #controls; #plots; #maps; #waiting; #rest = null; #strip; #last = null; #fromCursor = false; #numbers = {F: 0.1};
   #physics; #cursors; // as the server declares them
   #panels = null;
 
@@ -61,8 +61,8 @@ class Explore {
     this.#askNow();
     this.#panels = await panelsOf(this.#root, maps);
     this.#plots = this.#panels.plots;
-    for (const {key, cursor} of this.#cursors) {
-      this.#plots.onMove(`${key} cursor`, (force) => this.#cursorMoved(force));
+    for (const {key, cursor, drags} of this.#cursors) {
+      this.#plots.onMove(`${key} cursor`, (value) => this.#cursorMoved(drags, value));
       onDraw(this.#plots.root(`explore-${key}`), this.#find(`[data-draw="${key}"]`),
         (from, {x, y}) => { this.#plots.model(`${key} cursor`).location = cursor === "width" ? y : x; });
     }
@@ -336,7 +336,8 @@ class Explore {
     if (turn !== this.#turn) return;
     const elsewhere = this.#controls.answered(asked, header);
     this.#controls.refuse("", [this.#ofLink, elsewhere].filter(Boolean).join(" "));
-    this.#cursorTo(header.numbers.F);
+    this.#numbers = header.numbers;
+    this.#placeCursors();
     this.#writeAddress(header.state);
   }
 
@@ -344,22 +345,17 @@ class Explore {
     this.#address.write("explore", {...state, ...(this.#controls.said.shown ? {shown: this.#controls.said.shown} : {})});
   }
 
-  #cursorTo(force) {
-    this.#force = force;
-    this.#placeCursors();
-  }
-
-  // Place the cursors of the load; those of hidden panels, which Bokeh would lay out each time, when they are shown.
+  // Place the cursors of loads; those of hidden panels, which Bokeh would lay out each time, when they are shown.
   #placeCursors() {
     if (!this.#plots) return;
     this.#fromCursor = true;
-    for (const {key} of this.#cursors) if (!this.#panelOf(key).hidden) this.#plots.model(`${key} cursor`).location = this.#force;
+    for (const {key, drags} of this.#cursors) if (!this.#panelOf(key).hidden) this.#plots.model(`${key} cursor`).location = this.#numbers[drags] ?? 0;
     this.#fromCursor = false;
   }
 
-  #cursorMoved(force) {
+  #cursorMoved(key, value) {
     if (this.#fromCursor) return;
-    this.#controls.put("F", this.#controls.within("F", force), false);
+    this.#controls.put(key, this.#controls.within(key, value), false);
   }
 
   #refuse(sentence, at, turn = this.#turn) {

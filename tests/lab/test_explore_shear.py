@@ -1,0 +1,133 @@
+"""Shear in Explore: the loop, its numbers, map and code are those of the library."""
+
+import json
+import shlex
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from lab.test_explore import E_STAR, HEIGHT, LENGTH, SMALL, answer
+from roughline.lab.controls import ControlError
+from roughline.lab.explore import code, pictures
+from roughline.lab.explore.reading import read_state, usable_state
+
+FORCE = 0.2 * E_STAR * HEIGHT * LENGTH
+SHEARED = {**SMALL, "mu": "0.3", "Q": "0.15"}
+FIRST = 4  # number of the load that first has the largest shear force
+
+
+@pytest.fixture(scope="module")
+def pressed():
+    shear = rl.cycle(0.15 * FORCE, per_cycle=16, cycles=1)
+    return rl.press(
+        read_state(SMALL).surface(64),
+        half_space=rl.Homogeneous(E_STAR, poisson=0.3),
+        friction=rl.Friction(0.3),
+        forces=[FORCE] * len(shear),
+        shear_forces=shear,
+        fields=[FIRST, len(shear) - 1],
+    )
+
+
+@pytest.fixture(scope="module")
+def found():
+    return answer(pictures.further, SHEARED, of="mu")
+
+
+def said(header):
+    return {item["key"]: item for item in header["strip"]}
+
+
+def test_the_loop_is_that_of_the_library(pressed, found):
+    series = found[0]["panels"]["loop"]["series"]
+    slides, shares = pressed.slide[:, 0] / HEIGHT, pressed.shear_force[:, 0] / FORCE
+    for name, loads in (("rising", slice(FIRST + 1)), ("loop", slice(FIRST, None))):
+        np.testing.assert_allclose(series[name]["x"], slides[loads], rtol=1e-9)
+        np.testing.assert_allclose(series[name]["y"], shares[loads], rtol=1e-9, atol=1e-15)
+    assert series["here"]["y"] == pytest.approx([0.15])
+    assert found[0]["panels"]["loop"]["caption"].endswith("on 64² points")
+
+
+def test_the_strip_has_slide_stiffness_loss_and_what_never_slips(pressed, found):
+    strip, slip = (
+        said(found[0]),
+        np.diff([each.slip_total for each in pressed.fields if each], axis=0)[0],
+    )
+    assert strip["slide"]["value"] == f"{pressed.slide[FIRST, 0] / HEIGHT:#.3g} h"
+    stiffness = 1 / np.linalg.inv(pressed.shear_stiffness_back[0])[0, 0]
+    assert strip["tangential"]["value"] == f"{stiffness / 1e6:#.3g} MN/m"
+    energy = pressed.dissipated[FIRST + 1 :].sum()
+    assert strip["lost"]["value"] == f"{energy * 1e9:#.3g} nJ"
+    loss = energy / (np.pi * 0.15 * FORCE * pressed.slide[FIRST, 0])
+    assert strip["lost"]["below"] == f"loss factor {loss:#.3g}"
+    contact = pressed.fields[-1].contact
+    never = contact & (slip <= 1e-3 * slip.max())
+    assert strip["stuck"]["value"] == f"{100 * never.sum() / contact.sum():#.3g}%"
+    assert strip["stuck"]["below"] == f"slides under {0.3 * FORCE:#.3g} N"
+    assert 0 < never.sum() < contact.sum()
+    np.testing.assert_array_equal(found[1]["stick"].T, 2 * contact - never)
+    assert found[0]["maps"]["stick"]["meanings"]["ink"] == "never slips"
+
+
+def test_the_contact_is_that_without_shear():
+    plain, sheared = (answer(pictures.full, each) for each in (SMALL, SHEARED))
+    for part in ("strip", "panels", "facts"):
+        assert sheared[0][part] == plain[0][part]
+    np.testing.assert_array_equal(sheared[1]["pressure"], plain[1]["pressure"])
+
+
+@pytest.mark.parametrize(
+    ("more", "at", "why"),
+    [
+        ({"Q": "0.3"}, "Q", "not less than μ F"),
+        ({"Q": "8 N"}, "Q", "not less than μ F"),
+        ({"mu": "0.1"}, "Q", "under which the bodies slide"),
+        ({"Q": "3 m"}, "Q", 'shear force is "3 m"'),
+        ({"nu": "0.6"}, "nu", "from 0 to 0.5"),
+        ({"mu": "0"}, "mu", "from 0.01 to 2"),
+        ({"w": "1", "D_f": "2.2"}, "mu", "take the adhesion away"),
+        ({"hardness_bar": "0.3"}, "mu", "take the hardness away"),
+        ({"t": "0.05"}, "mu", "make it periodic"),
+    ],
+)
+def test_what_cannot_be_sheared_is_refused_where_it_stands(more, at, why):
+    with pytest.raises(ControlError) as refused:
+        read_state(SHEARED | more)
+    assert refused.value.at == at
+    assert why in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+def test_a_load_that_bears_the_shear_no_more_is_refused_at_the_load():
+    before = SHEARED | {"Q": "5 N"}
+    asked = {"state": before | {"F": "0.1"}, "before": before, "session": {}}
+    state, refused = usable_state(asked)
+    assert list(refused) == ["F"]
+    assert state.F == 0.2
+    assert pytest.approx(5 / FORCE) == state.added[0].Q
+
+
+def test_a_layer_is_sheared_on_a_surface_that_is_repeated():
+    coated = SHEARED | {"t": "0.05", "E_l": "0.2", "boundary": "periodic"}
+    stiffness = [
+        float(said(answer(pictures.further, each, of="mu")[0])["tangential"]["value"].split()[0])
+        for each in (coated, coated | {"t": ""})
+    ]
+    assert stiffness[0] < 0.8 * stiffness[1]
+
+
+def test_code_gives_the_same_numbers(pressed, invoke, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    for state in (SHEARED, SHEARED | {"Q": "3.3 N"}):
+        exec(answer(code.code, state, which="python")[0]["text"], {})
+        lines = capsys.readouterr().out.splitlines()
+        slide, lost = float(lines[3].split()[-1]), float(lines[4].split()[-2])
+        assert slide == pytest.approx(pressed.slide[FIRST, 0] / HEIGHT, rel=1e-9)
+        assert lost == pytest.approx(pressed.dissipated[FIRST + 1 :].sum(), rel=1e-9)
+    for line in answer(code.code, SHEARED, which="command")[0]["text"].splitlines():
+        done, told, errors = invoke(*shlex.split(line)[1:], *["--json"] * line.count("press"))
+        assert done == 0, errors
+    sheared, scale = json.loads(told)["sheared"], pressed.slide[FIRST, 0]
+    np.testing.assert_allclose(sheared["slide"], pressed.slide, rtol=0, atol=1e-6 * scale)
+    assert sheared["energy_of_cycles"] == pytest.approx([lost], rel=1e-5)
