@@ -156,13 +156,11 @@ class _Uploads(Guarded):
         if len(length) > _MOST_DIGITS or int(length) > most:
             raise HTTPError(413, reason=f"The file is larger than {most / 1e6:g} MB")
         self._files, self._digest = session.files, sha256()
-        self._is_full = not self._files.has_room(int(length))
-        if not self._is_full:
-            try:
-                self._upload = session.files.new(name, int(length))
-                self._file = self._upload.path.open("r+b")
-            except OSError:
-                self._give_up(is_full=True)
+        try:
+            self._upload = self._files.new(name, int(length))
+            self._file = self._upload.path.open("wb")
+        except OSError:
+            self._give_up(is_full=True)
 
     def data_received(self, chunk: bytes) -> None:
         """Write what has come, as long as somebody wants it."""
