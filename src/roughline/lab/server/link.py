@@ -68,14 +68,16 @@ class Link(Guarded, WebSocketHandler):
     def _take(self, session: Session, content: dict[str, Any]) -> None:
         number, slot, task, arguments = map(content.get, ("id", "slot", "task", "arguments"))
         number = number if isinstance(number, int) and 0 <= number < 2**53 else 0
-        has_slot = isinstance(slot, str) and 0 < len(slot) <= _LONGEST_SLOT
-        is_task = isinstance(task, str) and task in self.server.site.tasks
-        if has_slot and content.get("stop") is True:
+        if not isinstance(slot, str) or not 0 < len(slot) <= _LONGEST_SLOT:
+            slot = task = ""
+        if slot and content.get("stop") is True:
             self._held.pop(slot, None)
             session.withdraw(slot)
-        elif has_slot and content.get("forget") is True:
+        elif slot and content.get("forget") is True:
             session.forget_files()
-        elif has_slot and is_task and isinstance(arguments, dict):
+        elif (
+            isinstance(task, str) and task in self.server.site.tasks and isinstance(arguments, dict)
+        ):
             self._held[slot] = number, slot, task, arguments
         else:
             self.send({"id": number, "error": _STRANGE, "at": ""})
