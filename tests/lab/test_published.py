@@ -159,6 +159,8 @@ def test_a_point_of_the_map_is_one_sentence():
         "D_f = 2.30, F̄ = 0.0500 and",
     ):
         assert part in sentence
+    near = ask("point", {"roll_off": "4", "map_D_f": "2.6", "map_F": "0.01"})
+    assert "(95 % interval +0% to" in near["words"]["point"]
     there = ask("point", {"map_D_f": "3", "map_F": "0.001"})
     assert "the grid decides" in there["words"]["point"]
 

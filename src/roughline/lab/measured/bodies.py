@@ -11,7 +11,6 @@ import numpy as np
 from attrs import evolve
 
 from roughline.engineering.rules import rules
-from roughline.errors import InputError
 from roughline.errors.words import speaking
 from roughline.lab.controls import STRANGE, ControlError, sent_texts
 from roughline.lab.explore.controls import CHOICES as EXPLORED
@@ -127,5 +126,5 @@ def _flat(sides: Any) -> Body | None:
         if len(sides) == 1:
             return Line(np.zeros(2), sides[0], "m", kind="profile")
         return Surface(np.zeros((2, 2)), sides, "m")
-    except (InputError, TypeError):
+    except TypeError:
         raise ControlError(STRANGE) from None
