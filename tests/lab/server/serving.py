@@ -53,7 +53,7 @@ def running_lab(*options, temporary, closes=True, files=None, statements=()):
         try:
             first = process.stdout.readline()
             assert " at http" in first, first + log.read_text()
-            lab = Lab(first.split(" at ")[1].split(" ")[0], process, Path(temporary), log, first)
+            lab = Lab(first.split(" at ")[1].split(" ")[0], process, Path(temporary), log)
             yield lab
         finally:
             process.send_signal(signal.SIGINT if closes else signal.SIGKILL)
@@ -67,43 +67,53 @@ def _allow_files(number):
     resource.setrlimit(resource.RLIMIT_NOFILE, (number, number))
 
 
-@contextmanager
-def lab_here(temporary, **settings):
-    """Run a lab with settings in a thread; its processes are forked from one for all such labs."""
-    start_forking(warm_up, preloaded="roughline.lab.warm")
-    folder, log = Path(temporary) / "roughline-lab-here", Path(temporary) / "errors.txt"
+@asynccontextmanager
+async def opened(temporary, lanes=None, **settings):
+    """A lab with settings in this process, and its server; its lanes may be those of a test."""
+    folder = Path(temporary) / "roughline-lab-here"
     folder.mkdir()
-    settings = ServerSettings(**settings)
-    errors, begun = logging.FileHandler(log), Future()
-    errors.setLevel(logging.ERROR)
-
-    async def serve():
-        stopped, server = asyncio.Event(), Server(site(), settings, folder)
-        sockets = bind_sockets(0, settings.host)
-        listening = [asyncio.create_task(each) for each in taking(server, sockets)]
-        address = f"http://127.0.0.1:{sockets[0].getsockname()[1]}/?token={server.token}"
-        begun.set_result(
-            (address, partial(asyncio.get_running_loop().call_soon_threadsafe, stopped.set))
-        )
-        await stopped.wait()
+    server = Server(site(), ServerSettings(**settings), folder)
+    server.quick, server.slow = lanes or (server.quick, server.slow)
+    sockets = bind_sockets(0, "127.0.0.1")
+    listening = [asyncio.create_task(each) for each in taking(server, sockets)]
+    address = f"http://127.0.0.1:{sockets[0].getsockname()[1]}/?token={server.token}"
+    try:
+        log = Path(temporary) / "errors.txt"
+        yield await asyncio.to_thread(Lab, address, None, Path(temporary), log), server
+    finally:
         for each in listening:
             each.cancel()
         await server.close()
         for each in sockets:
             each.close()
+    await becomes(lambda: not list(folder.iterdir()))
+
+
+@contextmanager
+def lab_here(temporary, **settings):
+    """Run a lab with settings in a thread; its processes are forked from one for all such labs."""
+    start_forking(warm_up, preloaded="roughline.lab.warm")
+    errors, begun = logging.FileHandler(Path(temporary) / "errors.txt"), Future()
+    errors.setLevel(logging.ERROR)
+
+    async def serve():
+        stopped = asyncio.Event()
+        stop = partial(asyncio.get_running_loop().call_soon_threadsafe, stopped.set)
+        async with opened(temporary, **settings) as (lab, _):
+            begun.set_result((lab, stop))
+            await stopped.wait()
 
     logging.getLogger().addHandler(errors)
     with ThreadPoolExecutor(1) as thread:
         served = thread.submit(asyncio.run, serve())
-        address, stop = begun.result(patience())
+        lab, stop = begun.result(patience())
         try:
-            yield Lab(address, None, Path(temporary), log, "")
+            yield lab
         finally:
             stop()
             served.result(patience())
             logging.getLogger().removeHandler(errors)
             errors.close()
-    assert not list(folder.iterdir())
 
 
 class Lab:
@@ -119,16 +129,23 @@ class Lab:
         With the token.
     """
 
-    def __init__(self, address, process, temporary, log, first):
-        self.opened, self.process, self.log, self.first = address, process, log, first
-        self.address, self.cookie = entered(address)
-        self.temporary = temporary
+    def __init__(self, address, process, temporary, log):
+        self.opened, self.process, self.temporary, self.log = address, process, temporary, log
+        parts = urlsplit(address)
+        self.address = f"http://{parts.netloc}"
+        connection = HTTPConnection(parts.netloc, timeout=patience())
+        connection.request("GET", f"/?{parts.query}")
+        said = connection.getresponse().getheader("Set-Cookie", "")
+        self.cookie = said.partition(";")[0]
+        connection.close()
 
-    @property
-    def head(self):
-        """Headers that every request of its own pages has, for `raw`."""
+    async def connected(self, line, *headers):
+        """Begin a request as pages of its own do; returns the reader and the writer."""
         host = self.address.partition("//")[2]
-        return f"Host: {host}\r\nOrigin: {self.address}\r\nCookie: {self.cookie}\r\n"
+        reader, writer = await asyncio.open_connection(*host.split(":"))
+        own = (f"Host: {host}", f"Origin: {self.address}", f"Cookie: {self.cookie}")
+        writer.write("\r\n".join([f"{line} HTTP/1.1", *own, *headers, "", ""]).encode())
+        return reader, writer
 
     @property
     def folder(self):
@@ -166,16 +183,6 @@ class Lab:
             socket.close(1001, "left, as browsers say")
             while not page.is_closed and await page.heard() is not None:
                 pass
-
-
-def entered(address):
-    """Open an address that may have a token; gives the bare one, and the cookie of the login."""
-    parts = urlsplit(address)
-    connection = HTTPConnection(parts.netloc, timeout=patience())
-    connection.request("GET", f"/?{parts.query}")
-    cookie = connection.getresponse().getheader("Set-Cookie", "").partition(";")[0]
-    connection.close()
-    return f"http://{parts.netloc}", cookie
 
 
 class Page:
@@ -260,16 +267,6 @@ async def upload(lab, token, content, name, origin=None):
         body=content,
         headers={"Origin": origin or lab.address},
     )
-
-
-async def raw(lab, request):
-    """Send bytes; returns what comes back first."""
-    reader, writer = await asyncio.open_connection("127.0.0.1", lab.address.rpartition(":")[2])
-    writer.write(request)
-    said = await asyncio.wait_for(reader.read(2000), patience())
-    writer.close()
-    assert_tells_nothing(said)
-    return said
 
 
 def alive(lab):

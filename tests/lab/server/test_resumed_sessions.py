@@ -3,19 +3,12 @@
 import asyncio
 import json
 import sys
-from contextlib import asynccontextmanager
 
 import pytest
-from tornado.httpserver import HTTPServer
-from tornado.netutil import bind_sockets
 
-from lab.server.serving import Lab, becomes, upload
+from lab.server.serving import becomes, opened, upload
 from roughline.lab.server import sessions
-from roughline.lab.server.handlers import application
-from roughline.lab.server.sessions import Server
-from roughline.lab.server.settings import ServerSettings
 from roughline.lab.server.tasks import TaskOutcome
-from roughline.lab.site import site
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 
@@ -40,43 +33,17 @@ class Lane:
         pass
 
 
-@asynccontextmanager
-async def opened(folder, **settings):
-    """A lab in this process, whose tasks end when a test says so; and its server."""
-    server = Server(site(), ServerSettings(**settings), folder)
-    server.quick, server.slow = Lane(), Lane()
-    (listening,) = bind_sockets(0, "127.0.0.1")
-    http = HTTPServer(application(server))
-    http.add_sockets([listening])
-    address = f"http://127.0.0.1:{listening.getsockname()[1]}/?token={server.token}"
-    try:
-        yield await asyncio.to_thread(Lab, address, None, folder, None, ""), server
-    finally:
-        http.stop()
-        await server.close()
-
-
 @pytest.fixture(autouse=True)
 def _sweeps(monkeypatch):
     """Look often for what is over."""
     monkeypatch.setattr(sessions, "_SWEEP_INTERVAL", 0.02)
 
 
-class Sweeps:
-    """How often it was looked for what is over."""
+def run(scenario, folder):
+    """Run a scenario with a lab whose tasks end when a test says so, and with its server."""
 
-    def __init__(self, server):
-        self._sweep, self.count = server.sweep, 0
-        server.sweep = server._sweeping.callback = self
-
-    def __call__(self):
-        self._sweep()
-        self.count += 1
-
-
-def run(scenario, folder, **settings):
     async def main():
-        async with opened(folder, **settings) as (lab, server):
+        async with opened(folder, (Lane(), Lane())) as (lab, server):
             await scenario(lab, server)
 
     asyncio.run(main())
@@ -126,7 +93,7 @@ def test_what_a_page_says_of_its_session_does_not_count(tmp_path):
             await becomes(lambda: server.slow.requests)
             told = server.slow.requests[0].arguments
             assert told["state"] == {}
-            assert told["session"]["folder"] == str(tmp_path / page.token)
+            assert told["session"]["folder"] == str(server.root / page.token)
 
     run(scenario, tmp_path)
 
@@ -144,7 +111,7 @@ def test_a_session_ends_with_its_time_and_at_once_if_it_has_nothing(tmp_path, mo
             page.drop()
             await becomes(lambda: not server.sessions)
             assert server.slow.renewed > before
-            await becomes(lambda: not list(tmp_path.iterdir()))
+            await becomes(lambda: not list(server.root.iterdir()))
         for token in (page.token, "unknown", "\u00e4", "x" * 3000):
             async with lab.page(before=token) as fresh:
                 assert fresh.said["resumed"] is False
@@ -155,15 +122,13 @@ def test_a_session_ends_with_its_time_and_at_once_if_it_has_nothing(tmp_path, mo
 
 def test_a_page_that_is_left_stops_its_work_soon_unless_it_is_loaded_again(tmp_path, monkeypatch):
     async def scenario(lab, server):
-        sweeps = Sweeps(server)
         async with lab.page() as page:
             await page.ask("explore.full")
             await becomes(lambda: server.slow.requests)
         async with lab.page(before=page.token) as again:
             assert again.said["resumed"] is True
             monkeypatch.setattr(sessions, "_RELOAD_WITHIN", 0.0)
-            before = sweeps.count
-            await becomes(lambda: sweeps.count > before)
+            server.sweep()
             assert server.slow.withdrawn == []
         await becomes(lambda: (page.token, None) in server.slow.withdrawn)
         await becomes(lambda: not server.sessions)
@@ -182,5 +147,27 @@ def test_a_page_takes_over_from_another_that_is_told_so(tmp_path):
             server.quick.requests[0].answer(TaskOutcome(error="told to the other"))
             assert (await copied.answer())[1] == "told to the other"
             assert list(server.sessions) == [copied.token]
+
+    run(scenario, tmp_path)
+
+
+def test_a_page_that_vanishes_without_a_word_is_closed(tmp_path, monkeypatch):
+    monkeypatch.setattr("roughline.lab.server.handlers._PONG_WITHIN", 0.3)
+    monkeypatch.setattr(sessions, "_PAGE_WITHIN", 0.3)
+
+    async def scenario(lab, server):
+        async with lab.page() as page:
+            handle, pings = page.socket.protocol._handle_message, []
+
+            def noted(opcode, data):
+                pings.extend([data] * (opcode == 0x9))
+                return handle(opcode, data)
+
+            page.socket.protocol._handle_message = noted
+            await becomes(lambda: len(pings) >= 2)
+            assert page.token in server.sessions
+            await upload(lab, page.token, b"1 2", "a.txt")
+            page.socket.protocol._handle_message = lambda opcode, data: None  # nor any pong
+            await becomes(lambda: not server.sessions and not list(server.root.iterdir()))
 
     run(scenario, tmp_path)

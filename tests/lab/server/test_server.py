@@ -8,15 +8,8 @@ import sys
 
 import psutil
 import pytest
-from tornado.httpclient import HTTPClientError
 
-from lab.server.serving import (
-    alive,
-    becomes,
-    held,
-    run,
-    upload,
-)
+from lab.server.serving import alive, becomes, held, run, upload
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 SMALL = {"n": "64"}
@@ -25,15 +18,10 @@ FINE_PULL = {"w": "0.1", "h0": "0.05"}  # which 512 points and fewer do not reso
 
 def test_the_page_and_its_parts_come_under_a_strict_policy(lab):
     async def scenario():
-        paths = (
-            "/",
-            "/lab/lab.js",
-            "/bokeh/bokeh.min.js",
-            "/bokeh/bokeh-api.min.js",
-            "/lab/nothing",
-            "/no",
-        )
-        for path in paths:
+        for path in (
+            *("/", "/lab/lab.js", "/bokeh/bokeh.min.js", "/bokeh/bokeh-api.min.js"),
+            *("/lab/nothing", "/no"),
+        ):
             answer = await lab.fetch(path)
             assert answer.code == (404 if "no" in path.split("/")[-1] else 200), path
             policy = answer.headers["Content-Security-Policy"]
@@ -73,29 +61,6 @@ def test_nothing_else_can_be_read(lab, path):
     run(scenario)
 
 
-def test_other_names_and_pages_of_others_are_refused(lab):
-    async def scenario():
-        port = lab.address.rpartition(":")[2]
-        for host in (f"rebound.example:{port}", f"127.0.0.1.example:{port}", "[::1"):
-            for path in ("/", "/lab/lab.js", "/here"):
-                answer = await lab.fetch(path, headers={"Host": host})
-                assert answer.code in (400, 403), (host, path)
-        for origin in ("http://evil.example", "null", f"http://localhost:{port}", "http://["):
-            answer = await lab.fetch("/here", headers={"Origin": origin})
-            assert answer.code == 403
-            answer = await lab.fetch("/", method="POST", body="", headers={"Origin": origin})
-            assert answer.code == 403
-            with pytest.raises(HTTPClientError, match="403"):
-                async with lab.page({"Origin": origin}):
-                    pass
-        assert (await lab.fetch("/", method="POST", body="")).code == 403
-        with pytest.raises(HTTPClientError, match="403"):
-            async with lab.page({}):
-                pass
-
-    run(scenario)
-
-
 @pytest.mark.parametrize(
     "text",
     [
@@ -127,7 +92,7 @@ def test_messages_that_make_no_sense_are_answered_in_one_sentence(lab, text):
             await page.say(text)
             number, sentence = await page.answer()
             assert number in (0, 1)
-            assert "reload the page" in sentence or "not in a form the lab knows" in sentence
+            assert "reload the page" in sentence
             number = await page.ask("explore.code", state=SMALL)
             assert (await page.answer())[0] == number
 
@@ -152,16 +117,13 @@ def test_a_page_that_does_not_read_is_not_sent_more_and_more(lab):
 
     async def scenario():
         before = psutil.Process(lab.process.pid).memory_info().rss
-        reader, writer = await asyncio.open_connection("127.0.0.1", lab.address.rpartition(":")[2])
+        reader, writer = await lab.connected(
+            "GET /link",
+            *("Upgrade: websocket", "Connection: Upgrade", "Sec-WebSocket-Version: 13"),
+            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==",
+        )
         writer.transport.set_write_buffer_limits(high=2**24)
         writer.get_extra_info("socket").setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
-        writer.write(
-            (
-                f"GET /link HTTP/1.1\r\n{lab.head}"
-                "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-                "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
-            ).encode()
-        )
         await reader.readuntil(b"\r\n\r\n")
         reader._transport.pause_reading()
         for number in range(150):

@@ -1,6 +1,5 @@
 """How the lab starts, refuses to, and ends."""
 
-import asyncio
 import gc
 import json
 import os
@@ -11,26 +10,10 @@ import sys
 
 import psutil
 import pytest
-from tornado.httpclient import HTTPRequest
-from tornado.httpserver import HTTPServer
-from tornado.netutil import bind_sockets
-from tornado.websocket import websocket_connect
 
-from lab.server.serving import (
-    alive_still,
-    becomes,
-    entered,
-    run,
-    running_lab,
-    upload,
-    wait_until,
-)
+from lab.server.serving import alive_still, run, running_lab, upload, wait_until
 from reference import patience
-from roughline.lab.server.handlers import application
 from roughline.lab.server.process import noted_interrupts
-from roughline.lab.server.sessions import Server
-from roughline.lab.server.settings import ServerSettings
-from roughline.lab.site import site
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 LEFT_SOCKETS = pytest.mark.filterwarnings(  # Tornado leaves those that it cannot bind unclosed
@@ -46,7 +29,8 @@ def stopped_with_pages_open(lab, stop):
         async with lab.page() as page:
             await upload(lab, page.token, b"1 2\n", "a.txt")
             await page.ask("explore.curve", state={"n": "512"})
-            assert json.loads(await page.heard())["done"] == 1  # of many loads
+            said = json.loads(await page.heard())  # what follows within a moment is not told
+            assert 0 < said["done"] < said["total"]
             children = psutil.Process(lab.process.pid).children(recursive=True)
             lab.process.send_signal(stop)
             while await page.heard() is not None:
@@ -86,6 +70,7 @@ def test_what_a_killed_server_leaves_is_removed_by_the_next_which_stops_with_pag
     [
         (("--host", ""), '--host is ""; give a value'),
         (("--host", "192.0.2.1"), "cannot listen on 192.0.2.1"),
+        (("--host", "no.such.invalid"), "no address of this machine"),
         (("--port", "70000"), "--port is 70000"),
         (("--address", "lab.example.org"), '--address is "lab.example.org"; the address of the'),
     ],
@@ -94,16 +79,12 @@ def test_options_that_make_no_sense_are_one_line(invoke, options, said):
     assert_one_line(invoke, options, said)
 
 
-def test_a_host_that_is_not_this_machine_is_one_line(invoke):
-    assert_one_line(invoke, ("--host", "no.such.invalid"), "no address of this machine")
-
-
-def assert_one_line(invoke, options, said):
+def assert_one_line(invoke, options, *said):
     code, out, errors = invoke("lab", "--no-browser", *options)
     gc.collect()
     assert code == 2
     assert out == ""
-    assert said in errors
+    assert all(each in errors for each in said)
     assert errors.count("\n") == 1
 
 
@@ -111,11 +92,7 @@ def assert_one_line(invoke, options, said):
 def test_a_port_that_is_taken_is_one_line(invoke):
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = str(taken.getsockname()[1])
-        code, _, errors = invoke("lab", "--no-browser", "--port", port)
-    gc.collect()
-    assert code == 2
-    assert f"port {port}" in errors
-    assert "--port" in errors
+        assert_one_line(invoke, ("--port", port), f"port {port} (", "another --port")
 
 
 @pytest.mark.parametrize("moment", ["forking", "folder"])
@@ -153,44 +130,3 @@ def test_ctrl_c_while_modules_are_loaded_is_not_lost():
         signal.raise_signal(signal.SIGINT)
         assert interrupted()
     assert signal.getsignal(signal.SIGINT) is before
-
-
-@pytest.mark.parametrize("waits", [False, True], ids=["given up at once", "waited for"])
-def test_a_page_that_vanishes_without_a_word_is_closed(tmp_path, monkeypatch, waits):
-    """Tornado waits some seconds for its answer when it is told that it is closed."""
-    monkeypatch.setattr("roughline.lab.server.handlers._PONG_WITHIN", 0.3)
-    monkeypatch.setattr("roughline.lab.server.sessions._PAGE_WITHIN", 0.3)
-    monkeypatch.setattr("roughline.lab.server.sessions._SWEEP_INTERVAL", 0.02)
-
-    async def scenario():
-        lab = Server(site(), ServerSettings(), tmp_path)
-        (listening,) = bind_sockets(0, "127.0.0.1")
-        server = HTTPServer(application(lab))
-        server.add_sockets([listening])
-        port = listening.getsockname()[1]
-        opened = f"http://127.0.0.1:{port}/?token={lab.token}"
-        address, cookie = await asyncio.to_thread(entered, opened)
-        headers = {"Origin": address, "Cookie": cookie}
-        page = await websocket_connect(HTTPRequest(f"ws://127.0.0.1:{port}/link", headers=headers))
-        await page.read_message()
-        handle, pings = page.protocol._handle_message, []
-
-        def noted(opcode, data):
-            pings.extend([data] * (opcode == 0x9))
-            return handle(opcode, data)
-
-        page.protocol._handle_message = noted
-        await becomes(lambda: len(pings) >= 2)
-        (session,) = lab.sessions.values()
-        session.files.new("a.txt", 1).path.write_text("1")
-        page.protocol._handle_message = lambda opcode, data: None  # it answers no ping any more
-        link = session.line.ws_connection
-        if not waits:
-            await becomes(lambda: link._waiting is not None)
-            link._abort()
-        await becomes(lambda: not lab.sessions and not list(tmp_path.iterdir()))
-        page.close()
-        server.stop()
-        await lab.close()
-
-    run(scenario)

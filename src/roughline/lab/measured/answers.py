@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict, replace
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ from roughline.assessment.assess import assess_body
 from roughline.assessment.assess_part import assess_map, assess_part
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.part import PartAssessment
-from roughline.comparison.compared import NamedBody, compare_models
+from roughline.comparison.compared import ModelComparison, NamedBody, compare_models
 from roughline.errors.words import speaking
 from roughline.facts.fact import own_words
 from roughline.facts.kinds import DATA, INTERVALS, LIMITS
@@ -65,15 +66,14 @@ def answer(arguments: Arguments, progress: Progress) -> bytes:
     parts = [_remarks(result, arguments)]
     if isinstance(result, PartAssessment):
         wanted = arguments.get("map")
-        is_there = isinstance(wanted, int) and 0 <= wanted < len(result.assessments)
-        chosen = int(wanted or 0) if is_there else 0
+        chosen = wanted if isinstance(wanted, int) else 0
+        chosen = chosen if chosen in range(len(result.assessments)) else 0
         parts += [_in_words(result, "part"), part_in_words(result, chosen)]
         result = result.assessments[chosen]
     parts += [_in_words(result, "answers"), _body_header(result)]
     header: dict[str, Any] = {}
-    for each in parts:
-        for key, value in each.items():
-            header[key] = {**header.get(key, {}), **value} if isinstance(value, dict) else value
+    for key, value in chain.from_iterable(each.items() for each in parts):
+        header[key] = {**header.get(key, {}), **value} if isinstance(value, dict) else value
     return drawn(header, curve_panels(result), contact_pictures(result))
 
 
@@ -117,12 +117,14 @@ def _body_header(result: Assessment) -> dict[str, Any]:
         columns = ((slip.displacement, "m"), (slip.force, "N"))
         rows = [[engineering(float(each[i]), unit, 3) for each, unit in columns] for i in some]
     tables["measured-slip"] = (["displacement", "tangential force"], rows)
-    can_report = result.question.pair is not None and bool(result.question.loads)
-    modulus = up_to_three_digits(result.curve.E_star, None, "Pa")
-    words = {"modulus": modulus_in_words(result, modulus)}
-    found = bars(result, result.answers)
-    why = None if found is None else {**asdict(found), "header": found.header}
-    return {"words": words, "tables": tables, "bars": {"answers": why}, "can_report": can_report}
+    modulus = modulus_in_words(result, up_to_three_digits(result.curve.E_star, None, "Pa"))
+    why = bars(result, result.answers)
+    return {
+        "words": {"modulus": modulus},
+        "tables": tables,
+        "bars": {"answers": None if why is None else {**asdict(why), "header": why.header}},
+        "can_report": result.question.pair is not None and bool(result.question.loads),
+    }
 
 
 def assessed(arguments: Arguments, progress: Progress) -> Assessment | PartAssessment:
@@ -133,8 +135,13 @@ def assessed(arguments: Arguments, progress: Progress) -> Assessment | PartAsses
     texts, session = control_texts(arguments), arguments["session"]
     sources = page_sources(texts, session)
     questions = [page_question(texts, each) for each in sources]
-    keys = {each.path: each.key for each in sources}
-    steps = _Steps(progress)
+    keys, of_maps = {each.path: each.key for each in sources}, [0, 1]  # done, and in all
+
+    def steps(done: int, total: int) -> None:  # of the loads of one map
+        progress(of_maps[0] * total + done, of_maps[1] * total)
+
+    def begin_map(*of: int) -> None:
+        of_maps[:] = of
 
     def solve(question: Question) -> Assessment:
         assert isinstance(question.body, Path)
@@ -148,22 +155,7 @@ def assessed(arguments: Arguments, progress: Progress) -> Assessment | PartAsses
         # what cannot be asked of a part is refused here
         evolve(questions[0], body=list(keys), reading=replace(questions[0].reading, name=None))
         names = [each.name for each in sources]
-        return assess_part(questions, names=names, map_progress=steps.begin_map, answer=solve)
-
-
-class _Steps:
-    """Steps over the loads of all maps."""
-
-    def __init__(self, progress: Progress) -> None:
-        self._progress, self._map, self._maps = progress, 0, 1
-
-    def __call__(self, done: int, total: int) -> None:
-        """Tell of the loads of one map."""
-        self._progress(self._map * total + done, self._maps * total)
-
-    def begin_map(self, done: int, total: int) -> None:
-        """Begin the next of several maps."""
-        self._map, self._maps = done, total
+        return assess_part(questions, names=names, map_progress=begin_map, answer=solve)
 
 
 @speaking(PAGE_WORDS)
@@ -172,16 +164,13 @@ def compare(arguments: Arguments, progress: Progress) -> bytes:
     texts = control_texts(arguments)
     source = first_source(texts, arguments["session"])
     reading = page_reading(texts, source.name)
+
+    def made() -> ModelComparison:
+        body = Topography.of(source.path, reading, None).body
+        return compare_models(NamedBody(body, source.name), progress=progress)
+
     with at("compare"):
-        found = cached(
-            arguments["session"],
-            "comparison",
-            (source.key, reading),
-            lambda: compare_models(
-                NamedBody(Topography.of(source.path, reading, None).body, source.name),
-                progress=progress,
-            ),
-        )
+        found = cached(arguments["session"], "comparison", (source.key, reading), made)
     result = found.comparison
     star = "" if result.resolved.all() else "* fewer than ten cells in contact: the grid decides"
     words = {"what": found.what, "verdict": sentence(verdict_in_words(found)), "compare-star": star}

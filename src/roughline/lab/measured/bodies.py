@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from itertools import chain
 from pathlib import Path
@@ -63,10 +62,7 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
     meanings = []
     if body is not None and question.loads:
         meanings = [*map(str, facts_on_loads(question, body))]
-    elastic = {
-        "elastic": "yes",
-        **{k: x for k, x in sent_texts(arguments).items() if k != "elastic"},
-    }
+    elastic = {"elastic": "yes"} | {**sent_texts(arguments), "elastic": "yes"}  # changed first
     still = used_in({**arguments, "state": elastic}, read)[1] if refused else {}
     header = {
         "refused": refused,
@@ -126,12 +122,9 @@ def _flat(sides: Any) -> Body | None:
     """A flat body with the sides that the page was told; None before there is one."""
     if sides is None:
         return None
-    if (
-        not isinstance(sides, list)
-        or len(sides) not in (1, 2)
-        or not all(isinstance(side, float | int) and 0 < side < math.inf for side in sides)
-    ):
-        raise ControlError(STRANGE)
-    if len(sides) == 1:
-        return Line(np.zeros(2), sides[0], "m", kind="profile")
-    return Surface(np.zeros((2, 2)), (sides[0], sides[1]), "m")
+    try:
+        if len(sides) == 1:
+            return Line(np.zeros(2), sides[0], "m", kind="profile")
+        return Surface(np.zeros((2, 2)), sides, "m")
+    except TypeError:
+        raise ControlError(STRANGE) from None

@@ -10,7 +10,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from roughline.assessment.assessment import Assessment
 from roughline.assessment.part import PartAssessment
 from roughline.errors.words import speaking
 from roughline.lab.controls import is_number
@@ -44,7 +43,7 @@ _WRITTEN = (
 
 @speaking(PAGE_WORDS)
 def report(arguments: Arguments, progress: Progress) -> bytes:
-    """Write the report and the curve to the folder of the session."""
+    """Write the report and the curve, or the curve alone without answers, for the session."""
     texts = control_texts(arguments)
     result = assessed(arguments, progress)
     folder = Path(arguments["session"]["folder"]) / "results"
@@ -54,25 +53,20 @@ def report(arguments: Arguments, progress: Progress) -> bytes:
     files = {}
     with TemporaryDirectory(dir=folder) as made:
         begun = Path(made) / "all"
-        _write(result, begun, as_command(texts, _names(texts, arguments)))
+        command = as_command(texts, _names(texts, arguments))
         if isinstance(result, PartAssessment):
+            write_part_report(result, begun, command)
             shutil.move(shutil.make_archive(f"{made}/all-maps", "zip", begun), begun)
+        elif result.answers and result.question.loads:
+            write_contact_report(result, begun, command)
+        else:
+            write_contact(result, begun)
         for name in _WRITTEN:
             if (begun / name).exists():
                 place = f"{stem}-{digest(sorted(texts.items()))[:6]}-{name}"
                 shutil.move(begun / name, folder / place)
                 files[name] = place
     return frame({"files": files})
-
-
-def _write(result: Assessment | PartAssessment, folder: Path, command: str) -> None:
-    """Write the report, or the curve alone where there are no answers."""
-    if isinstance(result, PartAssessment):
-        write_part_report(result, folder, command)
-    elif result.answers and result.question.loads:
-        write_contact_report(result, folder, command)
-    else:
-        write_contact(result, folder)
 
 
 def _names(texts: ControlTexts, arguments: Arguments) -> list[str]:
@@ -103,26 +97,20 @@ _EXAMPLE_IN_COMMAND = "python -m roughline.lab.measured.examples {}\n"
 
 def _typed_values(texts: ControlTexts) -> dict[str, Any]:
     """All that is set, by the names of fields, as it was typed."""
-    materials = texts.get("first"), texts.get("second")
-    by_modulus = texts.get("bodies") == "modulus"
-    bodies = {"E_star": texts["E"]} if by_modulus else {"materials": materials}
-    return bodies | field_values(texts)
+    by_modulus, pair = texts.get("bodies") == "modulus", (texts.get("first"), texts.get("second"))
+    return ({"E_star": texts["E"]} if by_modulus else {"materials": pair}) | field_values(texts)
 
 
 def as_command(texts: ControlTexts, names: Sequence[str]) -> str:
     """The command that writes the same report on one file, or on several maps of a part."""
     words = ["roughline", "press", *(f"./{name}" if name[0] == "-" else name for name in names)]
     values = _typed_values(texts)
+    bodies = {"E_star": texts.get("E", ""), "materials": ", ".join(values.get("materials", ()))}
     for field in FIELDS:
-        value, text = values.get(field.name), texts.get(field.control, "")
-        if field.name == "materials" and value:
-            text = ", ".join(value)
-        elif field.name == "E_star":
-            text = texts.get("E", "")
-        elif field.kind is float and not is_number(text):
-            text = str(value)
-        if value is not None and text:
-            words += field.in_command(value, text)
+        text = bodies.get(field.name) or texts.get(field.control, "")
+        if (value := values.get(field.name)) is not None and text:
+            is_read = field.kind is float and not is_number(text)  # such as 20 %
+            words += field.in_command(value, str(value) if is_read else text)
     if "materials" in values and values.get("loads"):
         words += ["--report", "report"]
     else:
@@ -132,8 +120,8 @@ def as_command(texts: ControlTexts, names: Sequence[str]) -> str:
 
 def _in_python(of: str, by_place: Sequence[Any], by_name: Mapping[str, Any]) -> str:
     """What is asked, as Python: rl.Friction(0.3)."""
-    arguments = [*map(repr, by_place), *(f"{name}={value!r}" for name, value in by_name.items())]
-    return f"rl.{of}({', '.join(arguments)})"
+    named = (f"{name}={'rl.' * (type(x) is Missing)}{x!r}" for name, x in by_name.items())
+    return f"rl.{of}({', '.join([*map(repr, by_place), *named])})"
 
 
 def as_python(texts: ControlTexts, names: Sequence[str]) -> str:
@@ -146,15 +134,9 @@ def as_python(texts: ControlTexts, names: Sequence[str]) -> str:
     if asked := [_in_python(*each) for each in asked_in(written)]:
         question.append(f"ask=[{', '.join(asked)}]")
     for kind in (Reading, Preparation):
-        usual = vars(kind())
-        of_kind = arguments_for(kind.__name__, written).items()
-        changed = [
-            f"{name}={'rl.' if isinstance(value, Missing) else ''}{value!r}"
-            for name, value in of_kind
-            if value != usual[name]
-        ]
-        if changed:
-            question.append(f"{kind.__name__.lower()}=rl.{kind.__name__}({', '.join(changed)})")
+        name, usual = kind.__name__, vars(kind())
+        told = {k: x for k, x in arguments_for(name, written).items() if x != usual[k]}
+        question += [f"{name.lower()}={_in_python(name, (), told)}"] * bool(told)
     values = "answer.mean, answer.scatter" if is_part else "answer.values"
     end = "" if is_part else 'result.curve.write("curve.nc")\n'
     arguments = "".join(f"        {each},\n" for each in question)

@@ -18,13 +18,12 @@ import roughline as rl
 
 def write_example(key: str, folder: Path) -> Path:
     """Where an example lies in a folder; it is written there if it is not there yet."""
-    example = EXAMPLES[key]
-    path = folder / example.file
+    path = folder / EXAMPLES[key].file
     if not path.exists():
         folder.mkdir(parents=True, exist_ok=True)
         with TemporaryDirectory(dir=folder) as begun:
-            written = Path(begun) / example.file
-            example.write(written)
+            written = Path(begun) / path.name
+            EXAMPLES[key].write(written)
             written.replace(path)
     return path
 
@@ -33,14 +32,8 @@ def _ground_steel(path: Path) -> None:
     """A ground face under an optical profiler: lay, tilt, dark spots, and spikes of dust."""
     n, length = 320, 0.6e-3
     rng = np.random.default_rng(7)
-    spectrum = rl.SelfAffine(
-        hurst=0.75, length=length, rms_height=0.16e-6, q_roll=2 * math.pi / 60e-6
-    )
-    heights = spectrum.surface(n, 7).heights
-    grooves = rl.SelfAffine(
-        hurst=0.6, length=length, rms_height=0.07e-6, q_roll=2 * math.pi / 25e-6
-    )
-    heights = heights + grooves.surface(n, 8).heights[:, :1]  # the lay runs along y
+    lay = _rough(0.6, length, 0.07e-6, 25e-6).surface(n, 8).heights[:, :1]  # runs along y
+    heights = _rough(0.75, length, 0.16e-6, 60e-6).surface(n, 7).heights + lay
     x, y = np.meshgrid(*2 * [np.arange(n) / n], indexing="ij")
     heights += 2.4e-6 * x - 1.1e-6 * y  # the stage
     unknown = np.zeros((n, n), dtype=bool)
@@ -56,10 +49,7 @@ def _ground_steel(path: Path) -> None:
 def _sputtered_film(path: Path) -> None:
     """A sputtered film under an atomic force microscope: a self-affine law with a roll-off."""
     n, length = 384, 4e-6
-    spectrum = rl.SelfAffine(
-        hurst=0.8, length=length, rms_height=3.2e-9, q_roll=2 * math.pi / 0.5e-6
-    )
-    heights = spectrum.surface(n, 11).heights
+    heights = _rough(0.8, length, 3.2e-9, 0.5e-6).surface(n, 11).heights
     x, y = np.meshgrid(*2 * [np.arange(n) / n], indexing="ij")
     _write_x3p(path, np.ma.MaskedArray(heights + 9e-9 * x + 4e-9 * y), (length, length))
 
@@ -69,10 +59,7 @@ def _turned_shaft(path: Path) -> None:
     n, step = 4000, 0.5e-6
     length = n * step
     x = (np.arange(n) + 0.5) * step
-    spectrum = rl.SelfAffine(
-        hurst=0.7, length=length, rms_height=0.25e-6, q_roll=2 * math.pi / 0.15e-3
-    )
-    rough = spectrum.surface(1024, 5).heights[:, 0]
+    rough = _rough(0.7, length, 0.25e-6, 0.15e-3).surface(1024, 5).heights[:, 0]
     heights = np.interp(x, np.linspace(0, length, rough.size), rough)
     heights += 0.12e-6 * np.cos(2 * math.pi * x / 83e-6) + 1.5e-3 * x
     lines = [
@@ -82,6 +69,12 @@ def _turned_shaft(path: Path) -> None:
         *(f"{1e6 * a:.2f} {1e9 * b:.2f}" for a, b in zip(x, heights, strict=True)),
     ]
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def _rough(hurst: float, length: float, rms_height: float, longest: float) -> rl.SelfAffine:
+    """A law whose waves are so long at most. [m]"""
+    q_roll = 2 * math.pi / longest
+    return rl.SelfAffine(hurst=hurst, length=length, rms_height=rms_height, q_roll=q_roll)
 
 
 def _write_x3p(path: Path, heights: Any, sizes: tuple[float, float]) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any, Literal
 
@@ -14,7 +14,6 @@ from roughline.lab.measured.pictures import file_pictures, preparation_pictures
 from roughline.lab.measured.state import (
     PAGE_WORDS,
     ControlTexts,
-    Source,
     control_texts,
     first_source,
     page_preparation,
@@ -91,39 +90,26 @@ def _described(
 
     def read(texts: ControlTexts) -> tuple[Description, Preparation | None]:
         with at(key):
-            is_prepared = key == "preparation"
-            found = described(texts, source, session, is_prepared=is_prepared)
-            return found, page_preparation(texts) if is_prepared else None
+            reading = page_reading(texts, source.name)
+            preparation = page_preparation(texts) if key == "preparation" else None
+
+            def made() -> Measurement:
+                return measurement(source.path, reading.channel, source.name)
+
+            def body_of(piece: Measurement, reading: Reading, rest: Preparation | None) -> Body:
+                """The body as it is read; kept, because filling missing points loads slowly."""
+                keeps_trend = rest is not None and rest.trend is not None
+                asked = source.key, reading, preparation and preparation.crop, keeps_trend
+                return cached(session, "body", asked, lambda: measured_body(piece, reading, rest))
+
+            content = cached(session, "measurement", (source.key, reading.channel), made)
+            found = describe_measurement(
+                source.path, content, reading, preparation, body_of=body_of
+            )
+            return found, preparation
 
     (found, preparation), refused = used_in(arguments, read)
-    return found, refused, None if preparation is None else preparation.crop
-
-
-def described(
-    texts: ControlTexts, source: Source, session: Mapping[str, Any], *, is_prepared: bool = False
-) -> Description:
-    """Describe a file, prepared or as it is read."""
-    reading = page_reading(texts, source.name)
-    preparation = page_preparation(texts) if is_prepared else None
-    content = cached(
-        session,
-        "measurement",
-        (source.key, reading.channel),
-        lambda: measurement(source.path, reading.channel, source.name),
-    )
-
-    def read_body(piece: Measurement, reading: Reading, rest: Preparation | None) -> Body:
-        """The body as it is read; kept, because filling missing points loads slowly."""
-        crop = preparation.crop if preparation else None
-        keeps_trend = rest is not None and rest.trend is not None
-        return cached(
-            session,
-            "body",
-            (source.key, reading, crop, keeps_trend),
-            lambda: measured_body(piece, reading, rest),
-        )
-
-    return describe_measurement(source.path, content, reading, preparation, body_of=read_body)
+    return found, refused, preparation.crop if preparation else None
 
 
 def _remarks(found: Description) -> list[str]:

@@ -34,7 +34,10 @@ _MOST_MARKED_POINTS = 2000  # spikes, and missing points of a line
 _MOST_SPOTS = 100  # points in contact that are marked
 _MOST_LINE_POINTS = 8000  # that are drawn
 _HEIGHT_PERCENTILES = (0.1, 99.9)  # without spikes
-_PERCENTILES = {"lowest": 0, "lowest tenth below": 10, "median": 50, "highest tenth above": 90}
+_PERCENTILES = {
+    **{"lowest": 0, "lowest tenth below": 10, "median": 50, "highest tenth above": 90},
+    "highest": 100,
+}
 
 
 def file_pictures(found: Description) -> tuple[Panels, Maps]:
@@ -42,19 +45,17 @@ def file_pictures(found: Description) -> tuple[Panels, Maps]:
     content, body = found.measurement, found.body
     unit = content.unit or found.unit
     metres = metres_per(unit) if unit else None
-    heights = np.array(np.ma.getdata(content.heights), dtype=np.float64)
-    heights[content.unknown] = np.nan
+    heights = np.where(content.unknown, np.nan, np.ma.getdata(content.heights).astype(np.float64))
     spikes = np.zeros(heights.shape, bool)
     remark = "spikes are looked for once unit and size are known"
+    sides, aside, otherwise = tuple(map(float, heights.shape)), None, "points"
     if body is not None and body.heights.shape == heights.shape:
         spikes = outliers(body)
         remark = f"{np.count_nonzero(spikes)} spikes"
-    sides = content.sizes or tuple(map(float, heights.shape))
-    otherwise = "unit not stated" if content.sizes else "points"
-    aside = metres_per(content.unit_of_sides) if content.unit_of_sides else metres
-    aside = aside if content.sizes else None
-    if not content.sizes and body is not None and body.heights.shape == heights.shape:
         sides, aside = side_lengths(body), 1.0  # as they were given
+    if content.sizes:
+        sides, otherwise = content.sizes, "unit not stated"
+        aside = metres_per(content.unit_of_sides) if content.unit_of_sides else metres
     along = _scale(max(sides), aside, otherwise)
     up = _scale(_largest(np.abs(heights)), metres, "unit not stated")
     panels = _spectrum(found)
@@ -80,29 +81,26 @@ def preparation_pictures(before: Body, after: Body, corner: Sequence[float]) -> 
     heights, sides = [_about_mean(each) for each in (before, after)], side_lengths(before)
     along, up = _scale(max(sides), 1.0), _scale(_largest(np.abs(heights[0])), 1.0)
     corner = [end * along[0] for end in corner]
+    heights = [each * up[0] for each in heights]
     if not isinstance(after, Surface):
-        old, new = (each * up[0] for each in heights)
         x = [
-            _places(each.heights.size, side_lengths(each)[0] * along[0]) for each in (before, after)
+            along[0] * _places(each.heights.size, side_lengths(each)[0]) for each in (before, after)
         ]
-        series = {"before": _line(x[0], old), "after": _line(corner[0] + x[1], new)}
-        pairs = zip(_rows(old, up[1]), _rows(new, up[1]), strict=True)
+        series = {"before": _line(x[0], heights[0]), "after": _line(corner[0] + x[1], heights[1])}
+        pairs = zip(*(_rows(each, up[1]) for each in heights), strict=True)
         rows = [[*one, other[1]] for one, other in pairs]
         return {"prepared-line": _along(series, along, up, rows=rows)}, {}
-    captions = (
-        "about the mean, as read; draw a box to keep a piece",
-        f"{' x '.join(map(str, after.heights.shape))} points",
-    )
+    ends = [np.percentile(each, _HEIGHT_PERCENTILES) for each in heights]
+    low, high = float(np.min(ends)), float(np.max(ends))
     first, second = (
-        _map(each, side_lengths(body), along, up, caption=caption)
-        for each, body, caption in zip(heights, (before, after), captions, strict=True)
+        replace(_map(each, side_lengths(body), along, (1.0, up[1])), low=low, high=high)
+        for each, body in zip(heights, (before, after), strict=True)
     )
-    lows, highs = np.transpose(
-        [np.percentile(each * up[0], _HEIGHT_PERCENTILES) for each in heights]
-    )
-    low, high = float(lows.min()), float(highs.max())
-    second = replace(second, low=low, high=high, corner=corner)
-    return {}, {"height": replace(first, low=low, high=high), "after": second}
+    shape = " x ".join(map(str, after.heights.shape))
+    return {}, {
+        "height": replace(first, caption="about the mean, as read; draw a box to keep a piece"),
+        "after": replace(second, caption=f"{shape} points", corner=corner),
+    }
 
 
 def contact_pictures(result: Assessment) -> Maps:
@@ -161,14 +159,16 @@ def curve_panels(result: Assessment) -> Panels:
     curve, solved, scale = result.curve_over_loads, result.curve.converged, result.scale
     per_newton, force_unit = prefix(scale * _largest(curve.force[solved]), "N")
     per_stiffness, unit = prefix(scale * _largest(curve.stiffness[solved]), "N/m")
-    labels = {"stiffness": f"stiffness k [{unit}]", "area": "real contact area A / A₀"}
-    factors = {"stiffness": scale * per_stiffness, "area": 1.0}
+    of_y = {
+        "stiffness": (scale * per_stiffness, f"stiffness k [{unit}]"),
+        "area": (1.0, "real contact area A / A₀"),
+    }
     drawn = {"stiffness": _load_points(result, curve.stiffness, result.stiffness_interval)}
     if isinstance(curve, SurfaceCurve):
         drawn["area"] = _load_points(result, curve.area_fraction_corrected, result.area_interval)
-    if isinstance(curve, SurfaceCurve) and curve.hardness is not None:
-        unloading = _xy(curve.force[solved], curve.unloading_stiffness[solved])
-        drawn["stiffness"]["unloading"] = unloading
+        if curve.hardness is not None:
+            unloading = _xy(curve.force[solved], curve.unloading_stiffness[solved])
+            drawn["stiffness"]["unloading"] = unloading
     for each in result.theories:
         name, forces = f"theory {each.name}", result.load_on(each.pressure * result.area)
         drawn["area"][name] = _xy(forces, each.area_fraction)
@@ -178,12 +178,12 @@ def curve_panels(result: Assessment) -> Panels:
     columns, rows = curve_table(result)
     panels = {}
     for key, series in drawn.items():
-        by = {"x": scale * per_newton}
+        by = dict.fromkeys(("y", "low", "high"), of_y[key][0]) | {"x": scale * per_newton}
         scaled = {
-            name: {axis: values * by.get(axis, factors[key]) for axis, values in points.items()}
+            name: {axis: values * by[axis] for axis, values in points.items()}
             for name, points in series.items()
         }
-        axes = (f"force F{on} [{force_unit}]", labels[key])
+        axes = (f"force F{on} [{force_unit}]", of_y[key][1])
         panels[key] = PanelContent.fitted(scaled, axes=axes, columns=columns, rows=rows)
     return panels
 
@@ -193,13 +193,13 @@ def _load_points(result: Assessment, values: Real, ends: Ends | None) -> dict[st
     curve = result.curve_over_loads
     asked = np.isin(np.arange(curve.force.size), result.asked)
     kinds = {"loads": curve.resolved, "unsure": ~curve.resolved, "asked": asked}
-    masks = {kind: curve.converged & some for kind, some in kinds.items()}
-    masks["line"] = curve.converged
+    masks = {kind: curve.converged & some for kind, some in kinds.items()} | {
+        "line": curve.converged
+    }
     series = {kind: _xy(curve.force[mask], values[mask]) for kind, mask in masks.items()}
     if ends is not None:
-        low, high = ends
-        mask = curve.converged & (low > 0) & np.isfinite(high)
-        inside = _xy(curve.force, values) | {"low": low, "high": high}
+        mask = curve.converged & (ends[0] > 0) & np.isfinite(ends[1])
+        inside = _xy(curve.force, values) | {"low": ends[0], "high": ends[1]}
         series["interval"] = {axis: each[mask] for axis, each in inside.items()}
     return series
 
@@ -220,9 +220,10 @@ def _map(
     heights: Real, sides: Sequence[float], along: ShownUnit, up: ShownUnit, **others: Any
 ) -> Map:
     """A map of heights; a missing point shows in each pixel that has one."""
-    unknown, pixels = any_marked(~np.isfinite(heights)), thinned(heights) * up[0]
+    heights = heights * up[0]
+    unknown, pixels = any_marked(~np.isfinite(heights)), np.array(thinned(heights))
     pixels[unknown[: pixels.shape[0], : pixels.shape[1]]] = np.nan
-    others |= {"table": (["heights", ""], _rows(heights * up[0], up[1])), **_frame(sides, along)}
+    others |= {"table": (["heights", ""], _rows(heights, up[1])), **_frame(sides, along)}
     return height_map(pixels, up[1], blank="here", **others)
 
 
@@ -253,13 +254,10 @@ def _spectrum(found: Description) -> Panels:
     q, power = parameters.spectrum.q[power > 0], power[power > 0]
     label = f"spectrum C [{'m⁴' if isinstance(found.body, Surface) else 'm³'}]"
     some = np.unique(np.geomspace(1, q.size, 40).astype(int)) - 1
-    panel = PanelContent.fitted(
-        {"spectrum": _xy(q, power), "law": _xy(*((), ()) if law is None else law)},
-        axes=("", label),
-        caption="" if fit is None else fit.in_words,
-        columns=["q [1/m]", label],
-        rows=[[f"{q[i]:.2e}", f"{power[i]:.2e}"] for i in some],
-    )
+    series = {"spectrum": _xy(q, power), "law": _xy(*((), ()) if law is None else law)}
+    panel = PanelContent.fitted(series, axes=("", label), columns=["q [1/m]", label])
+    panel.caption = "" if fit is None else fit.in_words
+    panel.rows = [[f"{q[i]:.2e}", f"{power[i]:.2e}"] for i in some]
     return {"spectrum": panel}
 
 
@@ -272,12 +270,11 @@ def _shares(marked: NDArray[np.bool_], most: int) -> list[list[float]]:
 def _rows(heights: Real, unit: str) -> list[list[str]]:
     """Heights in numbers."""
     known = heights[np.isfinite(heights)]
-    if not known.size:
-        return []
     unit = "" if unit == "unit not stated" else unit
     return [
         [name, f"{figure(float(np.percentile(known, share)))} {unit}"]
-        for name, share in (_PERCENTILES | {"highest": 100}).items()
+        for name, share in _PERCENTILES.items()
+        if known.size
     ]
 
 

@@ -15,7 +15,7 @@ from roughline.lab.controls import ControlError, Texts, usable
 from roughline.lab.published.controls import MODELS, WINDOWS
 from roughline.lab.published.state import PublishedState, read_state
 from roughline.lab.server.tasks import Arguments
-from roughline.paper.laws import converged_stiffness
+from roughline.paper.laws import dimension_law
 from roughline.paper.mean_curve import MeanCurve, mean_curve
 from roughline.paper.results import published_dataset
 from roughline.paper.stated import ModelLabel
@@ -77,9 +77,7 @@ def normalised_law(state: PublishedState, model: ModelLabel, dimension: float) -
 
 @lru_cache(maxsize=1024)
 def _law(model: ModelLabel, dimension: float, window: ForceWindow, averaging: Any) -> PowerLaw:
-    one = ensemble(model, dimension)
-    stiffness = converged_stiffness(one, window)
-    return fit_power_law(one.force_bar.values, stiffness, window, averaging=averaging)
+    return dimension_law(ensemble(model, dimension), window, averaging)
 
 
 def _on_load(force: NDArray[np.float64], edge: float) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import re
 import secrets
@@ -42,18 +43,16 @@ class Files:
         self.folder = folder
         self.uploads: dict[str, Upload] = {}
 
-    def has_room(self, size: int) -> bool:
-        """Whether the disk has room for a file of a size. [bytes]"""
-        return shutil.disk_usage(self.folder.parent).free > size
-
     def new(self, name: str, size: int) -> Upload:
         """Make place for a file that is about to come, of a size that counts from now on.
 
-        The oldest go if they are too many or too large.
+        The oldest go if they are too many or too large. Raises an OSError if there is no room.
         """
         usable = _NOT_IN_NAMES.sub("_", name)[-100:] or "file"
         suffix = _SUFFIX.fullmatch(Path(usable).suffix)
         self.folder.mkdir(mode=0o700, exist_ok=True)
+        if shutil.disk_usage(self.folder).free <= size:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
         while self.uploads and (
             len(self.uploads) >= _MOST_FILES
             or sum(each.size for each in self.uploads.values()) + size > _MOST_UPLOADS * MOST_UPLOAD
@@ -61,7 +60,6 @@ class Files:
             self.forget(next(iter(self.uploads)))
         path = self.folder / (secrets.token_hex(8) + (suffix[0].lower() if suffix else ""))
         path.touch()
-        os.truncate(path, size)
         upload = Upload(secrets.token_urlsafe(12), path, usable, size)
         self.uploads[upload.key] = upload
         return upload

@@ -43,7 +43,7 @@ def application(server: Server) -> Application:
             (r"/lab/([\w./-]+)", _Parts, {"path": str(server.site.parts)}),
             (r"/bokeh/(bokeh(?:-[a-z]+)?\.min\.js)", _Parts, {"path": str(bokeh)}),
         ],
-        default_handler_class=_Nothing,
+        default_handler_class=_Unknown,
         server=server,
         websocket_max_message_size=MOST_BYTES,
         websocket_ping_interval=_PONG_WITHIN,
@@ -52,12 +52,14 @@ def application(server: Server) -> Application:
     )
 
 
-class _Nothing(Guarded):
-    """An address at which there is nothing, as is said to pages that may ask."""
+class _Unknown(Guarded):
+    """Any other address."""
+
+    open_to_all = True
 
     def prepare(self) -> None:
         super().prepare()
-        raise HTTPError(404, reason="There is nothing at this address")
+        raise HTTPError(404, reason="unknown")
 
 
 class _Page(Guarded):
@@ -113,11 +115,13 @@ class _Page(Guarded):
 
 
 class _Here(Guarded):
-    """Where a page asks whether the lab still knows its browser; others are refused before."""
+    """Where a page asks whether the lab still knows its browser: no error, as a browser tells."""
+
+    open_to_all = True
 
     def get(self) -> None:
         self.set_header("Cache-Control", "no-store")
-        self.set_status(204)
+        self.finish("known" if self.has_token else "unknown")
 
 
 class _Parts(Guarded, StaticFileHandler):
@@ -152,13 +156,11 @@ class _Uploads(Guarded):
         if len(length) > _MOST_DIGITS or int(length) > most:
             raise HTTPError(413, reason=f"The file is larger than {most / 1e6:g} MB")
         self._files, self._digest = session.files, sha256()
-        self._is_full = not self._files.has_room(int(length))
-        if not self._is_full:
-            try:
-                self._upload = session.files.new(name, int(length))
-                self._file = self._upload.path.open("r+b")
-            except OSError:
-                self._give_up(is_full=True)
+        try:
+            self._upload = self._files.new(name, int(length))
+            self._file = self._upload.path.open("wb")
+        except OSError:
+            self._give_up(is_full=True)
 
     def data_received(self, chunk: bytes) -> None:
         """Write what has come, as long as somebody wants it."""

@@ -13,7 +13,6 @@ from roughline.lab.server.process import LOST, Process
 from roughline.lab.server.tasks import Place, TaskOutcome
 
 _log = logging.getLogger(__name__)
-_MOST_TASKS = 500  # of one process, before a fresh one takes its place
 
 
 @dataclass(eq=False)
@@ -171,7 +170,7 @@ class Lane:
     async def _put_back(self, process: Process, *, has_read: bool) -> None:
         """Keep a process for the next request, or end it; one that has read a file is ended."""
         is_wanted = self._lasting or len(self._idle) < self._count
-        is_fit = process.is_alive and process.tasks < _MOST_TASKS and not has_read
+        is_fit = process.is_alive and not has_read
         if is_fit and is_wanted and not self._closed:
             self._idle.append(process)
         else:

@@ -18,6 +18,7 @@ from roughline.lab.server.tasks import PACKING
 
 MOST_BYTES = 2**16  # longest message of a page; files come another way
 _LONGEST_SLOT = 40
+_STRANGE = "this message is not one of the lab: reload the page"
 _MOST_UNSENT = 1_000_000  # answers on their way to a page until its questions are held [bytes]
 _LEFT = 1001  # with which a browser closes the websocket of a page that is left or loaded again
 
@@ -65,24 +66,21 @@ class Link(Guarded, WebSocketHandler):
             self._ask()
 
     def _take(self, session: Session, content: dict[str, Any]) -> None:
-        number, slot, task = content.get("id"), content.get("slot"), content.get("task")
+        number, slot, task, arguments = map(content.get, ("id", "slot", "task", "arguments"))
         number = number if isinstance(number, int) and 0 <= number < 2**53 else 0
-        arguments, why = content.get("arguments"), ""
         if not isinstance(slot, str) or not 0 < len(slot) <= _LONGEST_SLOT:
-            why = "this message is not one of the lab: reload the page"
-        elif content.get("stop") is True:
+            slot = task = ""
+        if slot and content.get("stop") is True:
             self._held.pop(slot, None)
             session.withdraw(slot)
-        elif content.get("forget") is True:
+        elif slot and content.get("forget") is True:
             session.forget_files()
-        elif not isinstance(task, str) or task not in self.server.site.tasks:
-            why = "the lab has no such task: reload the page"
-        elif not isinstance(arguments, dict):
-            why = "what is set here is not in a form the lab knows: reload the page"
-        else:
+        elif (
+            isinstance(task, str) and task in self.server.site.tasks and isinstance(arguments, dict)
+        ):
             self._held[slot] = number, slot, task, arguments
-        if why:
-            self.send({"id": number, "error": why, "at": ""})
+        else:
+            self.send({"id": number, "error": _STRANGE, "at": ""})
 
     def _ask(self) -> None:
         """Ask what is held, as far as the page has taken what it was sent."""

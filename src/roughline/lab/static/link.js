@@ -107,17 +107,14 @@ export class Link {
     this.#again();
   }
 
-  // Open it again if the server is there and this browser is known, which a websocket cannot tell.
+  // Open it again if the server is there and knows this browser, which a websocket cannot tell.
   async #again() {
     this.#timer = null;
-    const status = await fetch("here", {cache: "no-store", signal: AbortSignal.timeout(PATIENCE)})
-      .then((reply) => reply.status, () => 0);
-    if (status === 0 || status === 401) {
-      this.#told.closed("", status === 401);
-      this.#tryLater();
-    } else {
-      this.#open();
-    }
+    const said = await fetch("here", {cache: "no-store", signal: AbortSignal.timeout(PATIENCE)})
+      .then((reply) => reply.text(), () => "");
+    if (said === "known") { this.#open(); return; }
+    this.#told.closed("", said === "unknown");
+    this.#tryLater();
   }
 
   #said(message) {

@@ -40,11 +40,14 @@ export async function pictureOf(plots, panels) {
   return new Promise((resolve) => { made.toBlob(resolve, "image/png"); });
 }
 
-// Lines above a picture: what it is of, the scale of its colours, and its curves with their colours.
+// Lines above a picture: what it is of, the scale of its colours, and what colours and curves are, with their colours.
 function wordsOf(panel) {
-  const said = (selector) => [...panel.querySelectorAll(`:scope > ${selector}`)].map((each) => each.selectedOptions?.[0].text ?? each.innerText.trim());
+  const found = (selector) => [...panel.querySelectorAll(`:scope > ${selector}`)];
+  const told = (each) => each.selectedOptions?.[0].text ?? (each.querySelector(".patch") ? each.firstChild.textContent : each.innerText).trim();
+  const keys = found("figcaption .patch").map((patch) =>
+    ({text: patch.nextSibling.textContent, colour: getComputedStyle(patch).backgroundColor}));
   const names = [...panel.querySelectorAll(".names li:not([hidden])")].map((item) =>
     ({text: item.innerText.trim(), colour: getComputedStyle(item).borderLeftColor}));
-  const head = [said("figcaption :is(.title, select, small)").filter(Boolean).join("; "), said(".scale").join("").replace(/\s+/g, " ")];
-  return [...head.filter(Boolean).map((text) => ({text})), ...names];
+  const head = [found("figcaption :is(.title, select, small)").map(told).filter(Boolean).join("; "), found(".scale").map(told).join("").replace(/\s+/g, " ")];
+  return [...head.filter(Boolean).map((text) => ({text})), ...keys, ...names];
 }
