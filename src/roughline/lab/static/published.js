@@ -23,7 +23,7 @@ const ofDimensions = (series, wanted) => Object.fromEntries(Object.entries(serie
 
 export default class Published {
   #link; #address; #root = document.querySelector("#published"); #controls; #panels; #constants = null; #trust;
-  #later = new Set(); #windows = {}; #state = {}; #shown = "";
+  #windows = {}; #state = {}; #shown = "";
 
   constructor(link, address) {
     this.#link = link;
@@ -61,10 +61,7 @@ export default class Published {
 
   shown() { this.#address.write("published", this.#state); }
 
-  // Ask; while an answer is awaited, a newer question waits for it, so that a moving window is followed.
   #ask(task) {
-    if (this.#link.isWaiting(task)) { this.#later.add(task); return; }
-    const ended = () => { if (this.#later.delete(task)) this.#ask(task); };
     const asked = this.#controls.asked;
     this.#link.ask(`published.${task}`, task, asked, {
       answer: (header) => {
@@ -74,15 +71,11 @@ export default class Published {
         this.#take(task, header);
         if (task === "fits") this.#showCurves();
         else this.#showPoint(header);
-        ended();
       },
-      error: (sentence, at) => {
-        this.#controls.deny(sentence, at, () => {
-          this.#controls.take({});
-          TASKS.forEach((each) => this.#ask(each));
-        });
-        ended();
-      },
+      error: (sentence, at) => this.#controls.deny(sentence, at, () => {
+        this.#controls.take({});
+        TASKS.forEach((each) => this.#ask(each));
+      }),
     });
   }
 
