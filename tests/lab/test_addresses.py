@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from roughline.lab.controls import VERSION, usable
 from roughline.lab.explore import controls as explore
 from roughline.lab.explore.physics import PHYSICS
-from roughline.lab.explore.state import ExploreState
 from roughline.lab.explore.reading import read_state as explore_state
+from roughline.lab.explore.state import ExploreState
 from roughline.lab.measured import controls as measured
 from roughline.lab.measured.state import Source, control_texts, page_question
 from roughline.lab.published import controls as published
@@ -191,8 +191,6 @@ OF_0_3_0 = {
     + "&seal=20+mm+..+24+mm&flow_along=x&sealing_pressure=yes&blur=1+um&tip_radius=2+um",
 }
 """Links that set what version 0.3.0 added."""
-
-
 
 
 def test_links_of_version_0_3_0_are_read():

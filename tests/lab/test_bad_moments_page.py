@@ -1,10 +1,11 @@
-"""A page at bad moments: beside another tab, loaded again in the middle, moved faster than it is answered."""
+"""A page beside another tab, loaded again in the middle, moved faster than it is answered."""
 
 import pytest
 
 from lab.explore_driven import SMALL, address, drawn, settled, strip, typed
 
-# Answers are kept back while `held` is a list, by the numbers of their questions, and go on when they are released.
+# Answers are kept back while `held` is a list, by the numbers of their questions, until they are
+# released.
 HELD = """
 window.held = null, window.newest = 0, window.told = [];
 window.release = () => held.splice(0).forEach(([, go]) => go());
