@@ -34,7 +34,7 @@ def strip(page):
         """() => Object.fromEntries(
             [...document.querySelectorAll("#explore [data-answer]")].map((item) => [
                 item.dataset.answer,
-                [...item.querySelectorAll("dd")].map((each) => each.textContent),
+                [...item.querySelectorAll("dd > *")].map((each) => each.textContent),
             ]))"""
     )
 

@@ -95,6 +95,14 @@
     }).map((each) => each.outerHTML.slice(0, 200));
   },
 
+  // Targets that a finger would miss; a box is touched by its label too.
+  small(view) {
+    const all = document.querySelectorAll(
+      `header :is(a, button), #${view} :is(button, select, summary, [type=checkbox], [type=radio])`);
+    return [...all].filter((each) => each.checkVisibility()
+      && (each.matches("input") ? each.labels[0] : each).getBoundingClientRect().height < 24).map((each) => each.outerHTML.slice(0, 200));
+  },
+
   // Plots that are too small to read.
   tiny(view) {
     return [...document.querySelectorAll(`#${view} .plot`)].filter((each) => each.checkVisibility()

@@ -7,6 +7,7 @@ from reference import patience
 
 _QUESTIONS = (Path(__file__).parent / "looks.js").read_text(encoding="utf-8")
 _AA = 4.5  # least contrast of texts
+_PHONE = 760  # below this width fingers are expected [px]
 
 
 def asked(page, question, *arguments):
@@ -22,11 +23,13 @@ def faint(page):
 
 
 def cut_off(page, view, width, height=1100):
-    """Make the window so large; return what is then cut off, when all has followed."""
+    """Make the window so large; return what is cut off or too small to touch, once it is drawn."""
     page.set_viewport_size({"width": width, "height": height})
     end = time.monotonic() + patience()
     while True:
         found = asked(page, "cut", view)
+        if width < _PHONE:
+            found += asked(page, "small", view)
         beyond = asked(page, "width") - width
         if (not found and not beyond) or time.monotonic() > end:
             return found + [f"{beyond} pixels beyond the window"] * bool(beyond)

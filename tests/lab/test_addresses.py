@@ -11,6 +11,7 @@ from roughline.lab.controls import VERSION, usable
 from roughline.lab.explore import controls as explore
 from roughline.lab.explore.physics import PHYSICS
 from roughline.lab.explore.reading import read_state as explore_state
+from roughline.lab.explore.state import ExploreState
 from roughline.lab.measured import controls as measured
 from roughline.lab.measured.state import Source, control_texts, page_question
 from roughline.lab.published import controls as published
@@ -178,4 +179,30 @@ def test_links_of_version_0_2_0_are_read():
     assert question.loading.headings == ["2 MPa"]
     assert question.friction == 0.3
     assert question.reading.channel == "0"
+    assert question.preparation.points == 64
+
+
+OF_0_3_0 = {
+    "explore": OF_0_2_0["explore"].replace("shown=gap", "shown=flux")
+    + "&t=0.1&E_l=2&nu_l=0.3&nu_b=0.25&fluid=x",
+    "sticking": "v=1&D_f=2.4&n=64&seed=3&F=0.2&w=0.01&h0=0.05&shown=retreat",
+    "measured": OF_0_2_0["measured"].replace("fill=nearest", "tilt=mounting&pixels=means")
+    + "&fluid=helium&inlet=2+bar&outlet=1+bar"
+    + "&seal=20+mm+..+24+mm&flow_along=x&sealing_pressure=yes&blur=1+um&tip_radius=2+um",
+}
+"""Links that set what version 0.3.0 added."""
+
+
+def test_links_of_version_0_3_0_are_read():
+    for view in ("explore", "sticking"):
+        said = dict(parse_qsl(OF_0_3_0[view]))
+        found, refused = usable({"state": said}, explore_state, ExploreState.texts)
+        assert refused == {}
+        again = found.texts()
+        kept = said.keys() - {"v", "view", "theme", "H", "D_f"}
+        assert {key: again[key] for key in kept} == {key: said[key] for key in kept}
+    said = control_texts({"state": dict(parse_qsl(OF_0_3_0["measured"]))})
+    question = page_question(said, Source(Path("a.nc"), "a.nc", "key"))
+    assert (question.sealing.inlet, question.sealing.outlet) == (2e5, 1e5)
+    assert question.sealing.along == "x"
     assert question.preparation.points == 64

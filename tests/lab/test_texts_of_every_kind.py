@@ -53,6 +53,12 @@ def test_texts_of_explore():
     assert explore.NUMBERS["D_f"].key in state
 
 
+def test_a_text_of_blanks_is_called_none():
+    sent = {"state": {"w": "abc"}, "before": {"w": " "}}
+    _, refused = usable(sent, explore_state, ExploreState.texts)
+    assert refused["w"].endswith("; none is used meanwhile")
+
+
 def test_texts_of_the_paper():
     for key in (*published.NUMBERS, *published.CHOICES, "D_f"):
         for text in TEXTS:
@@ -134,6 +140,7 @@ def test_several_that_are_refused_in_my_surface_say_so_each(ask):
         ("adhesion", "50 mJ/m^2 over 1 km", "longer than the shorter side, 500 µm"),
         ("adhesion", "1e300 J/m^2", "more than the contact modulus times"),
         ("resample", "100000", "this lab takes up to 4096"),
+        ("loads", "1 TPa", "half-spaces are linear elastic far below that only"),
     ],
 )
 def test_what_is_beyond_all_sense_is_refused_at_its_control_at_once(ask, key, text, why):

@@ -282,7 +282,7 @@ def usable(
             continue
         used = {**as_texts(found), **texts}
         return found, {
-            key: f"{sentence}; {used.get(key) or 'none'} is used meanwhile"
+            key: f"{sentence}; {used.get(key, '').strip() or 'none'} is used meanwhile"
             for key, sentence in refused.items()
         }
 

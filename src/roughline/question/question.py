@@ -392,7 +392,8 @@ class Question:
                 self.attraction.refuse_too_strong(min(body.sizes), self.modulus)
         for ratio, fact in self.strains(body):
             if ratio > LARGEST_STRAIN:
-                raise InputError(f"{fact}, and {LINEARITY}: give a smaller one, and check its unit")
+                text = f"{fact}, and {LINEARITY}: give a smaller one, and check its unit"
+                raise InputError(text, None, "loads")
         if self.theories and not has_spectrum(body):
             raise InputError(
                 "theories are evaluated for a rough surface of 8 x 8 points or more, whose pixels "

@@ -1,6 +1,5 @@
 // Code that repeats what is shown, in the dialog of a view.
 import {copy} from "./clipboard.js";
-import {openDialog} from "./dialogs.js";
 
 // asked() gives what the task is asked with, and refuse(sentence, at) writes why there is no code.
 export function bindCode(root, link, asked, refuse) {
@@ -8,7 +7,7 @@ export function bindCode(root, link, asked, refuse) {
   dialog.querySelector("[data-copy]").addEventListener("click", ({target}) => copy(code.textContent, target));
   for (const button of root.querySelectorAll("[data-code]")) {
     button.addEventListener("click", () => link.ask(`${root.id}.code`, `${root.id} code`, {...asked(), which: button.dataset.code}, {
-      answer: ({text}) => { code.textContent = text; openDialog(dialog, button); },
+      answer: ({text}) => { code.textContent = text; dialog.showModal(); },
       error: refuse,
     }));
   }

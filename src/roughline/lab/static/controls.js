@@ -9,6 +9,7 @@ export class Controls {
   #places = new Map(); // elements by selectors
   #used = {}; // texts that the server used last
   #refused = new Set(); // keys of those that it does not use
+  #ofLink = ""; // why the link that was opened is not shown
 
   // changed(key, isFinal) is called when something is set; isFinal is false while a slider moves.
   constructor(root, changed) {
@@ -52,6 +53,7 @@ export class Controls {
   set(key, text, isFinal = true) {
     const {[key]: _, ...others} = this.#said;
     this.#said = {...others, [key]: text}; // what was changed last is at the end
+    this.#ofLink = "";
     this.#refused.delete(key);
     this.#changed(key, isFinal);
   }
@@ -76,7 +78,7 @@ export class Controls {
 
   // Take an answer of the server to what it was asked: which texts it does not use and why, the numbers that it
   // used, and the lower ends of sliders that have others now. It is about `keys`, or about all controls.
-  // Gives the sentences that cannot be seen at a control.
+  // Sentences that cannot be seen at a control stand at the head of the view.
   answered({state}, {refused, numbers = {}, lows = {}}, keys = this.#keys) {
     const isAsAsked = (key) => state[key] === this.#said[key]; // or it has changed since
     const elsewhere = [];
@@ -99,12 +101,23 @@ export class Controls {
     for (const [key, value] of Object.entries(numbers)) {
       if (!(key in refused) && isAsAsked(key)) this.#showNumber(key, value);
     }
-    return elsewhere.join(" ");
+    this.refuse("", [this.#ofLink, ...elsewhere].join(" ").trim());
   }
 
   get #keys() {
     const places = this.#all("[data-error]").map(({dataset}) => dataset.error);
     return [...places.filter(Boolean), ...Object.keys(this.#said)];
+  }
+
+  // Say why a question is refused: at its control, or else at the head of the view. Of a link that cannot be read that is
+  // said until something is set, and `begin` takes the defaults in its place.
+  deny(sentence, at, begin) {
+    if (at !== "v") {
+      if (!this.refuse(at, sentence)) this.refuse("", sentence);
+    } else if (!this.#ofLink) {
+      this.#ofLink = sentence;
+      begin();
+    }
   }
 
   // Write a sentence beside a control; an empty one takes it away. Tells whether it can be seen there.

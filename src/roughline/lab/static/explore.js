@@ -8,8 +8,7 @@ import {settle} from "./link.js";
 import {Maps, layersOf, mapFigure, onRelief, profileFigure, sharedRanges} from "./maps.js";
 import {panelsOf} from "./panels.js";
 import {pictureOf, save} from "./saving.js";
-import {Strip} from "./strip.js";
-import {fillCaption, fillList, fillTable} from "./tables.js";
+import {fillCaption, fillFigures, fillList, fillTable} from "./tables.js";
 import {bindTabs} from "./tabs.js";
 import {Waiting} from "./waiting.js";
 
@@ -19,16 +18,10 @@ const SURFACES = 4; // whose heights are held
 const LEFT = {full: "the coarse answer is shown", download: "nothing was saved"}; // what a cancel of these leaves
 const LEFT_BY_OTHERS = "curves belong to the contact before";
 
-export async function open(link, address, said) {
-  const view = new Explore(link, address);
-  await view.open(said);
-  return view;
-}
-
-class Explore {
+export default class Explore {
   #link; #address; #root = document.querySelector("#explore");
-  #controls; #plots; #maps; #waiting; #rest = null; #strip; #last = null; #fromCursor = false; #numbers = {F: 0.1};
-  #physics; #cursors; // as the server declares them
+  #controls; #plots; #maps; #waiting; #rest = null; #last = null; #fromCursor = false; #numbers = {F: 0.1};
+  #physics; #cursors; #figures; // as the server declares them: of figures the keys, in their order
   #panels = null;
 
   constructor(link, address) {
@@ -41,7 +34,7 @@ class Explore {
     this.#waiting = new Waiting(this.#find(".status"), link, (works) => this.#cancelled(works));
     bindCode(this.#root, link, () => this.#seen, (...said) => this.#refuse(...said));
     this.#find("#save").addEventListener("click", () => this.#save(this.#find("#saved").value));
-    this.#strip = new Strip(this.#find(".strip"), strip);
+    this.#figures = strip;
     this.#find("#another").addEventListener("click", () => {
       this.#controls.put("seed", String(Math.floor(Math.random() * 1e6)));
     });
@@ -141,7 +134,6 @@ class Explore {
       if (![...NOT_ASKED, ...Object.keys(this.#fields.maps)].includes(shown)) this.#sharpen(); // it was not sent
       return;
     }
-    this.#ofLink = "";
     if (key === "rms") this.#showHeightOrSlope();
     if (key in this.#physics && this.#isAdded(key) === this.#find(`[data-adds="${key}"]`).hidden) { // on or off
       const {opens, maps} = this.#physics[key], {shown} = this.#controls.said;
@@ -282,13 +274,16 @@ class Explore {
 
   // Show what an answer has for the panels and the strip, in the place of the last of its kind.
   #show(what, header) {
-    const before = this.#answers.get(what) ?? {};
     this.#answers.delete(what);
     this.#answers.set(what, header); // those that came last are at the end
     if (!this.#panels) return;
     this.#panels.show(what, header.panels ?? {}, header.numbers);
-    const said = (header.strip ?? []).map(({key}) => key);
-    this.#strip.add(header.strip ?? [], (before.strip ?? []).map(({key}) => key).filter((key) => !said.includes(key)));
+    fillFigures(this.#find(".strip"), this.#shownFigures);
+  }
+
+  get #shownFigures() {
+    const known = Object.fromEntries([...this.#answers.values()].flatMap(({strip = []}) => strip.map((each) => [each.key, each])));
+    return this.#figures.flatMap((key) => known[key] ?? []);
   }
 
   // Take away what belongs to another load from the panels that others fill.
@@ -334,8 +329,7 @@ class Explore {
 
   #settled(header, asked, turn) {
     if (turn !== this.#turn) return;
-    const elsewhere = this.#controls.answered(asked, header);
-    this.#controls.refuse("", [this.#ofLink, elsewhere].filter(Boolean).join(" "));
+    this.#controls.answered(asked, header);
     this.#numbers = header.numbers;
     this.#placeCursors();
     this.#writeAddress(header.state);
@@ -361,25 +355,17 @@ class Explore {
   #refuse(sentence, at, turn = this.#turn) {
     if (turn !== this.#turn) return;
     clearTimeout(this.#rest);
-    if (at === "v") this.#begin(sentence);
-    else if (!this.#controls.refuse(at, sentence)) this.#controls.refuse("", sentence);
-  }
-
-  #ofLink = ""; // why the link that was opened is not shown
-
-  // Begin with the defaults in the place of a link that cannot be read.
-  #begin(sentence) {
-    if (this.#ofLink) return;
-    this.#ofLink = sentence;
-    this.#take({});
-    this.#askNow();
-    this.#sharpen();
+    this.#controls.deny(sentence, at, () => {
+      this.#take({});
+      this.#askNow();
+      this.#sharpen();
+    });
   }
 
   // Write the status; at rest it is spoken too, with the numbers.
   #say(text, atRest) {
     this.#find("[data-status]").textContent = text;
-    if (atRest) this.#find("[data-spoken]").textContent = `${text}; ${this.#strip.spoken}`;
+    if (atRest) this.#find("[data-spoken]").textContent = `${text}; ${this.#shownFigures.map(({symbol, value}) => `${symbol} ${value}`).join(", ")}`;
   }
 
   #panelOf(key) { return this.#find(`#explore-${key}`); }

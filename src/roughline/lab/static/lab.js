@@ -64,9 +64,10 @@ async function show(name, said) {
   if (!opened.has(name)) {
     const root = document.querySelector(`#${name}`);
     root.inert = true; // what is clicked before its buttons are listened to would be lost
-    opened.set(name, import(`./${name}.js`).then((module) => {
-      const view = module.open(link, address, said);
+    opened.set(name, import(`./${name}.js`).then(async ({default: View}) => {
+      const view = new View(link, address), isOpen = view.open(said);
       root.inert = false;
+      await isOpen;
       return view;
     }));
   } else {

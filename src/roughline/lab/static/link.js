@@ -26,13 +26,11 @@ export class Link {
     document.addEventListener("visibilitychange", () => { if (!document.hidden) this.#tryNow(); });
   }
 
-  // Ask for a task. A newer question with the same slot takes the place of an older one.
+  // Ask for a task. A newer question with the same slot takes the place of an older one, unless that is being answered:
+  // of a slider that moves faster than answers come, these are what is seen.
   ask(task, slot, args, {answer, error, progress}) {
     const id = ++this.#number;
-    for (const [old, asked] of this.#waiting) {
-      if (asked.slot === slot && asked.replaced) this.#waiting.delete(old);
-      else if (asked.slot === slot) asked.replaced = true;
-    }
+    for (const asked of this.#waiting.values()) if (asked.slot === slot) asked.replaced = true;
     const message = {id, slot, task, arguments: args};
     this.#waiting.set(id, {slot, message, answer, error, progress});
     this.#unsaid.delete(slot);
@@ -123,10 +121,10 @@ export class Link {
     else this.#waiting.get(message.id)?.progress?.(message);
   }
 
-  // What was asked by a number, which waits no more.
+  // What was asked by a number, which waits no more; nor do those before it, which it has replaced.
   #ended(id) {
     const asked = this.#waiting.get(id);
-    this.#waiting.delete(id);
+    for (const [each, {slot}] of this.#waiting) if (slot === asked?.slot && each <= id) this.#waiting.delete(each);
     return asked;
   }
 

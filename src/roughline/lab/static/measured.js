@@ -18,19 +18,12 @@ const OF_BODIES = keysOf('[data-of="bodies"]');
 const TEXTS = [...document.querySelectorAll("#measured input[data-text]")];
 const BEGINS = Object.fromEntries(TEXTS.filter((each) => each.defaultValue).map((each) => [each.dataset.text, each.defaultValue]));
 
-export async function open(link, address, said) {
-  const view = new Measured(link, address);
-  await view.open(said);
-  return view;
-}
-
-class Measured {
+export default class Measured {
   #link; #address; root = document.querySelector("#measured");
   #controls; #source; #part; #answers;
   #read = null; // what the file holds, as last read
   #body = null; // the same, prepared, as far as it can be pressed
   #refusals = {bodies: {}, file: {}, preparation: {}}; // sentences by controls, of each question that tells them
-  #ofLink = ""; // why the link that was opened is not shown
   #brought = new Map(); // digests and names of the files that are on the server, by their keys
   #wanted = []; // digests and names of files that have to be chosen, by a link or once more
 
@@ -89,7 +82,9 @@ class Measured {
     for (const [name, text] of Object.entries(words)) this.say(name, text);
     for (const [id, [header, rows, groups, quiet]] of Object.entries(tables)) fillTable(id, header, rows, groups, quiet);
     for (const [name, sentences] of Object.entries(lists)) fillList(this.find(`[data-list="${name}"]`), sentences);
-    for (const [name, each] of Object.entries(figures)) fillFigures(this.find(`[data-figures="${name}"] dl`), each);
+    for (const [name, each] of Object.entries(figures)) {
+      fillFigures(this.find(`[data-figures="${name}"] dl`), each.map((figure) => ({symbol: figure.name, value: figure.value, below: figure.interval})));
+    }
     for (const [name, each] of Object.entries(bars)) fillBars(this.find(`[data-bars="${name}"]`), each);
     if (remarks) fillGroups(this.find("[data-remarks]"), remarks);
     if (step) this.pictures.then((pictures) => pictures.show(step, answer));
@@ -190,15 +185,18 @@ class Measured {
       : "The file and all that was made of it are deleted as soon as the lab answers again.");
   }
 
-  set(key, text) {
-    this.#take({...this.#controls.said, [key]: text});
-    this.#changed(key);
-  }
+  set(key, text) { this.#controls.put(key, text); }
 
-  // Write a sentence where it belongs, and unfold it; at the head of the view where it has no place.
+  // Write a sentence where it belongs, and unfold it; begin anew in the place of a link that cannot be read.
   refuse(sentence, at = "") {
     if (sentence && at) this.#unfold(at);
-    if (!this.#controls.refuse(at, sentence)) this.#controls.refuse("", sentence);
+    this.#controls.deny(sentence, at, () => {
+      this.#wanted = [];
+      this.note("");
+      this.#stop();
+      this.#take({...BEGINS});
+      this.#askBodies();
+    });
   }
 
   // Say why something was not done: at its button, and at the control that it is about, which may say so already.
@@ -213,23 +211,12 @@ class Measured {
     this.#refusals[question] = Object.fromEntries(known);
     const all = Object.assign({}, ...Object.values(this.#refusals));
     for (const key of Object.keys(all)) if (!this.#controls.isRefused(key)) this.#unfold(key);
-    const elsewhere = this.#controls.answered(asked, {refused: all}, keys);
-    this.refuse([this.#ofLink, elsewhere].filter(Boolean).join(" "));
+    this.#controls.answered(asked, {refused: all}, keys);
   }
 
   #unfold(key) {
     let folded = this.find(`[data-error="${CSS.escape(key)}"]`);
     while ((folded = folded?.parentElement.closest("details"))) folded.open = true;
-  }
-
-  // Begin anew in the place of a link that cannot be read.
-  #begin(sentence) {
-    this.#ofLink = sentence;
-    this.#wanted = [];
-    this.note("");
-    this.#stop();
-    this.#take({...BEGINS});
-    this.#askBodies();
   }
 
   #take(said) {
@@ -240,7 +227,6 @@ class Measured {
   }
 
   #changed(key) {
-    this.#ofLink = "";
     for (const refused of Object.values(this.#refusals)) delete refused[key];
     for (const at of ["", key, ...TASKS]) this.refuse("", at);
     if (key === "bodies") this.#take(this.#controls.said);
@@ -349,7 +335,7 @@ class Measured {
         this.#offerElastic(found.mended_if_elastic);
         this.show(found);
       },
-      error: (sentence, at) => { if (at === "v") this.#begin(sentence); else this.refuse(sentence, at); },
+      error: (sentence, at) => this.refuse(sentence, at),
     });
   }
 

@@ -4,11 +4,9 @@ import {element, typeset} from "./elements.js";
 import {add, draw, plot} from "./figures.js";
 import {onDraw, onTouch} from "./hands.js";
 import {panelsOf} from "./panels.js";
-import {Strip} from "./strip.js";
-import {fillTable, judged} from "./tables.js";
+import {fillFigures, fillTable, judged, patch} from "./tables.js";
 
 const EDGES = {"1D": ["low_1D", "high_1D"], "3D": ["low_3D", "high_3D"]};
-const STRIP = ["exponent_1D", "stated_1D", "exponent_3D", "stated_3D"];
 const OF_THE_POINT = ["roll_off", "map_D_f", "map_F", "tolerance"];
 const TASKS = ["fits", "point"];
 const DIMENSIONS = [...document.querySelectorAll('#published [data-key="D_f"]')].map(({value}) => value);
@@ -23,25 +21,17 @@ const ofDimensions = (series, wanted) => Object.fromEntries(Object.entries(serie
   return !DIMENSIONS.includes(dimension) || wanted.includes(dimension);
 }));
 
-export async function open(link, address, said) {
-  const view = new Published(link, address);
-  await view.open(said);
-  return view;
-}
-
-class Published {
-  #link; #address; #root = document.querySelector("#published"); #controls; #panels; #strip; #constants = null; #trust;
-  #later = new Set(); #windows = {}; #state = {}; #ofLink = ""; #shown = "";
+export default class Published {
+  #link; #address; #root = document.querySelector("#published"); #controls; #panels; #constants = null; #trust;
+  #windows = {}; #state = {}; #shown = "";
 
   constructor(link, address) {
     this.#link = link;
     this.#address = address;
     this.#controls = new Controls(this.#root, (key) => {
-      this.#ofLink = "";
       this.#ask(OF_THE_POINT.includes(key) ? "point" : "fits");
     });
     this.#trust = [...this.#root.querySelectorAll(`[id^="${PANEL}"]`)];
-    this.#strip = new Strip(this.#root.querySelector(".strip"), STRIP);
     this.#root.querySelector("#published-windows").addEventListener("click", () => {
       const kept = Object.entries(this.#controls.said).filter(([key]) => !Object.values(EDGES).flat().includes(key));
       this.#controls.take(Object.fromEntries(kept));
@@ -66,43 +56,31 @@ class Published {
       });
     }
     this.#root.querySelector("[data-legend]").replaceChildren(...this.#constants.legend.map(([background, text]) =>
-      element("li", {}, element("span", {className: "patch", style: `background: ${background}`}), text)));
+      element("li", {}, patch(background, text))));
   }
 
   shown() { this.#address.write("published", this.#state); }
 
-  // Ask; while an answer is awaited, a newer question waits for it, so that a moving window is followed.
   #ask(task) {
-    if (this.#link.isWaiting(task)) { this.#later.add(task); return; }
-    const ended = () => { if (this.#later.delete(task)) this.#ask(task); };
     const asked = this.#controls.asked;
     this.#link.ask(`published.${task}`, task, asked, {
       answer: (header) => {
-        const elsewhere = this.#controls.answered(asked, header);
-        this.#controls.refuse("", [this.#ofLink, elsewhere].filter(Boolean).join(" "));
+        this.#controls.answered(asked, header);
         this.#state = header.state;
         if (!this.#root.hidden) this.shown();
         this.#take(task, header);
         if (task === "fits") this.#showCurves();
         else this.#showPoint(header);
-        ended();
       },
-      error: (sentence, at) => { this.#refuse(sentence, at); ended(); },
+      error: (sentence, at) => this.#controls.deny(sentence, at, () => {
+        this.#controls.take({});
+        TASKS.forEach((each) => this.#ask(each));
+      }),
     });
   }
 
-  // Put a sentence at its control; the defaults take the place of a link that cannot be read.
-  #refuse(sentence, at) {
-    if (at === "v") {
-      if (this.#ofLink) return;
-      this.#ofLink = sentence;
-      this.#controls.take({});
-      TASKS.forEach((task) => this.#ask(task));
-    } else if (!this.#controls.refuse(at, sentence)) this.#controls.refuse("", sentence);
-  }
-
   // Take an answer: what panels and other sources show, windows, tables, words at their places, large figures.
-  #take(what, {panels, sources = {}, windows = {}, tables = {}, words = {}, strip = []}) {
+  #take(what, {panels, sources = {}, windows = {}, tables = {}, words = {}, strip}) {
     Object.assign(this.#windows, windows);
     for (const [id, {header, rows}] of Object.entries(tables)) {
       const labelled = (cell, i) => [element("span", {className: "label"}, ...typeset(header[i])), ...typeset(cell)];
@@ -111,8 +89,8 @@ class Published {
     for (const [place, text] of Object.entries(words)) {
       this.#root.querySelector(`[data-words="${place}"]`).replaceChildren(...typeset(text));
     }
-    this.#strip.add(strip);
-    this.#root.querySelectorAll(".strip dd:nth-child(2)").forEach(judged);
+    if (strip) fillFigures(this.#root.querySelector(".strip"), strip);
+    this.#root.querySelectorAll(".strip span").forEach(judged);
     this.#panels.then((shown) => {
       if (panels) shown.show(what, panels);
       for (const [name, columns] of Object.entries(sources)) shown.plots.set(name, columns);

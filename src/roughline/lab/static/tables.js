@@ -66,10 +66,17 @@ export function fillGroups(place, groups) {
   }));
 }
 
-// The answers that lead, in large figures.
+// The answers that lead, in large figures, each with what stands below; those that are the same stay as they are.
 export function fillFigures(place, figures) {
-  place.replaceChildren(...figures.map(({name, value, interval}) => element("div", {},
-    ...[["dt", name], ["dd", value], ["dd", interval]].map(([kind, text]) => element(kind, {}, ...typeset(text))))));
+  const before = Object.fromEntries([...place.children].map((item) => [item.dataset.said, item]));
+  const items = figures.map(({key = "", symbol, value, below, meaning: title = ""}) => {
+    const said = JSON.stringify([key, symbol, value, below, title]);
+    const item = before[said] ?? element("div", {title}, element("dt", {}, ...typeset(symbol)),
+      element("dd", {}, element("span", {}, ...typeset(value)), element("small", {}, ...typeset(below))));
+    Object.assign(item.dataset, {answer: key, said});
+    return item;
+  });
+  if (String(items.map(({dataset}) => dataset.said)) !== String(Object.keys(before))) place.replaceChildren(...items);
 }
 
 // Why answers are not known better: below the whole interval of each a bar for each cause, all on one axis; a fold that is
@@ -100,7 +107,8 @@ export function fillCaption(place, {caption, meanings}) {
   const said = JSON.stringify([caption, meanings]); // what is the same is not written: it comes with each picture
   if (place.dataset.said === said) return;
   place.dataset.said = said;
-  const patches = Object.entries(meanings).flatMap(([name, meaning]) =>
-    [element("span", {className: "patch", style: `background: var(--${name})`}), meaning]);
-  place.replaceChildren(caption, ...patches);
+  place.replaceChildren(caption, ...Object.entries(meanings).map(([name, meaning]) => patch(`var(--${name})`, meaning)));
 }
+
+// A colour and its meaning, which stay together.
+export function patch(shown, meaning) { return element("span", {className: "patch", style: `--shown: ${shown}`, textContent: meaning}); }
