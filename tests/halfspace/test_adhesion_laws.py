@@ -383,3 +383,15 @@ def test_a_range_that_is_a_little_too_short_is_told_to_be_so():
         assert wider > 1
         assert wider**2 * zone >= RESOLVED_FROM
         assert cells < 4
+
+
+def test_the_pull_off_is_the_same_however_far_beyond_it_a_pull_is():
+    """Its dip is as wide as the pull reaches, and the pull that is asked for far beyond it."""
+    surface = rl.SelfAffine(hurst=0.8, rms_height=1.0, length=1.0).surface(64, rng=7)
+    asked = {"E_star": 1.0, "law": rl.Dugdale(1.0, 0.5), "throw": False}
+    depths = np.linspace(2.3, -0.7, 61)
+    least = rl.press(surface, depths=depths, **asked).force.min()
+    for pulls in ([0, -0.2], [0, -2.02], [0.08, 0, -2.02]):
+        found = rl.press(surface, forces=[0.16, *pulls], **asked).pull_off_force
+        assert found == pytest.approx(-0.0301878, rel=1e-4)
+        assert found <= least

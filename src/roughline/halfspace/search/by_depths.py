@@ -22,6 +22,7 @@ from roughline.halfspace.search.problem import Contact, Load, Outcome
 _STEP_GROWTH = 2.0  # by which a step to the next depth may be longer than the one before
 _MOST_TRIALS = 100
 _DIP_STEPS = 8  # steps across an interval with a least force
+_STEPS_APART = 32  # from a depth to first touch, at least, or as the reach of the pull tells
 # A part of what nodes bear: a force that is missed by no more is then given itself, and what bears
 # no more beside another state has come off.
 _CLOSE_FORCE = 1e-2
@@ -190,7 +191,8 @@ class _DepthSearch:
                 return state
         before, least = state, state
         lowest: _Dip | None = None  # of the force along the way
-        step = -self._step(None, state)
+        longest = _longest_step(state)
+        step = min(-self._step(None, state), longest)
         for _ in range(_MOST_TRIALS):
             trial = self.at(state.path, state.depth - step)
             if not trial.is_solved or self.is_at(trial):
@@ -221,7 +223,7 @@ class _DepthSearch:
                 return State(trial.path.after_separation(), off)
             before, state = state, trial
             wanted = math.inf if passed else -self._step(before, state)
-            step = min(max(wanted, step / _STEP_GROWTH), _STEP_GROWTH * step)
+            step = min(max(wanted, step / _STEP_GROWTH), _STEP_GROWTH * step, longest)
         return replace(state, contact=replace(state.contact, outcome=Outcome.STALLED))
 
     def _lowest_of_full_contact(self, state: State) -> float:
@@ -295,6 +297,15 @@ class _DepthSearch:
             if abs(gained) <= self._rtol * dip.middle.absolute_force:
                 break
         return dip.middle
+
+
+def _longest_step(state: State) -> float:
+    """Return how far a step apart goes at most, as forces dip about as far as the pull reaches.
+
+    A long way is taken in a number of steps, however short the reach is.
+    """
+    reach = float(state.contact.problem.law.gap_at(np.array([0.5]))[0])
+    return max(reach / 2, (abs(state.depth) + reach) / _STEPS_APART)
 
 
 def _force(state: State) -> float:
