@@ -209,10 +209,8 @@ class SlidePath:
             if found.outcome is not Outcome.CONVERGED:
                 return found
             start, state = contact.contact_set, (contact.nodes, found.shear)
-            change = self._lift(*state, everywhere)
-            change -= lift
-            lift += change
-            error = float(max(change.max(), -change.min())) / contact.length_scale
+            change = self._lift(*state, everywhere) - lift
+            lift, error = lift + change, float(np.abs(change).max()) / contact.length_scale
             if aim <= rtol and error <= _ALTERNATION_SHARE * rtol:
                 break
         else:
