@@ -90,11 +90,11 @@ def layered_coupling_kernel(
     rows[1][:] += rest.displacement(cells, factor, odd=True)
 
 
-_Cells = tuple[Integers, Integers, tuple[float, float]]
+_CellOffsets = tuple[Integers, Integers, tuple[float, float]]
 """Distances along x and y in cells, and the sides of a cell."""
 
 
-def _in_thicknesses(h: float, first: int, spacing: tuple[float, float], rows: Real) -> _Cells:
+def _in_thicknesses(h: float, first: int, spacing: tuple[float, float], rows: Real) -> _CellOffsets:
     """Return the cells of a table, in units of the thickness h."""
     x, y = first + np.arange(rows.shape[0]), np.arange(rows.shape[1])
     return x, y, (spacing[0] / h, spacing[1] / h)
@@ -160,7 +160,7 @@ class SmoothKernel:
             rule[:, 1 : 1 + count] = np.array(np.polynomial.legendre.leggauss(count)) / 2
         return cls(order, table, rules)
 
-    def displacement(self, cells: _Cells, factor: float, *, odd: bool = False) -> Real:
+    def displacement(self, cells: _CellOffsets, factor: float, *, odd: bool = False) -> Real:
         """Return what pressure on one cell displaces at its distances, times a factor.
 
         It is also times the cosine of the order times the angle from x, or the sine, which is odd.
