@@ -48,7 +48,7 @@ def layered_kernel(
     cells = _in_thicknesses(h, first, spacing, rows)
     love(*cells[:2], *spacing, 1 / body.E_star, rows)
     rest = _beside_top_layer(body.in_units(body.E_star, h), longest / h)
-    rows += rest.of_cells(cells, h / body.E_star)
+    rows += rest.displacement(cells, h / body.E_star)
 
 
 def layered_shear_kernel(
@@ -64,13 +64,13 @@ def layered_shear_kernel(
     top.shear_kernel(first, spacing, rows)
     cells, factor = _in_thicknesses(h, first, spacing, xx), h / top.E_star
     mean, difference = _beside_shear(body.in_units(top.E_star, h), top, longest / h)
-    part = mean.of_cells(cells, factor)
+    part = mean.displacement(cells, factor)
     xx += part
     yy += part
-    part = difference.of_cells(cells, factor)
+    part = difference.displacement(cells, factor)
     xx -= part
     yy += part
-    xy -= difference.of_cells(cells, factor, odd=True)
+    xy -= difference.displacement(cells, factor, odd=True)
 
 
 def layered_coupling_kernel(
@@ -86,15 +86,15 @@ def layered_coupling_kernel(
     top.coupling_kernel(first, spacing, rows)
     cells, factor = _in_thicknesses(h, first, spacing, rows[0]), h / top.E_star
     rest = _beside_coupling(body.in_units(top.E_star, h), top, longest / h)
-    rows[0][:] += rest.of_cells(cells, factor)
-    rows[1][:] += rest.of_cells(cells, factor, odd=True)
+    rows[0][:] += rest.displacement(cells, factor)
+    rows[1][:] += rest.displacement(cells, factor, odd=True)
 
 
-_Cells = tuple[Integers, Integers, tuple[float, float]]
+_CellOffsets = tuple[Integers, Integers, tuple[float, float]]
 """Distances along x and y in cells, and the sides of a cell."""
 
 
-def _in_thicknesses(h: float, first: int, spacing: tuple[float, float], rows: Real) -> _Cells:
+def _in_thicknesses(h: float, first: int, spacing: tuple[float, float], rows: Real) -> _CellOffsets:
     """Return the cells of a table, in units of the thickness h."""
     x, y = first + np.arange(rows.shape[0]), np.arange(rows.shape[1])
     return x, y, (spacing[0] / h, spacing[1] / h)
@@ -160,7 +160,7 @@ class SmoothKernel:
             rule[:, 1 : 1 + count] = np.array(np.polynomial.legendre.leggauss(count)) / 2
         return cls(order, table, rules)
 
-    def of_cells(self, cells: _Cells, factor: float, *, odd: bool = False) -> Real:
+    def displacement(self, cells: _CellOffsets, factor: float, *, odd: bool = False) -> Real:
         """Return what pressure on one cell displaces at its distances, times a factor.
 
         It is also times the cosine of the order times the angle from x, or the sine, which is odd.

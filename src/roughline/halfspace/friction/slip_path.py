@@ -208,10 +208,8 @@ class SlidePath:
             if found.outcome is not Outcome.CONVERGED:
                 return found
             start = contact.contact_set
-            change = self._lift(contact.nodes, found.shear, everywhere)
-            change -= lift
-            lift += change
-            error = float(max(change.max(), -change.min())) / contact.length_scale
+            change = self._lift(contact.nodes, found.shear, everywhere) - lift
+            lift, error = lift + change, float(np.abs(change).max()) / contact.length_scale
             if aim <= rtol and error <= _ALTERNATION_SHARE * rtol:
                 break
         else:
