@@ -329,8 +329,8 @@ class _SlideStep:
     def _on_these_discs(self, nearly: Slid) -> Real:
         """Return the shear under nearly these pressures; nodes that slip go on to bear all."""
         nodes, others = self._contact.nodes, nearly.contact.nodes
-        borne = self._friction.bound(nearly.contact.pressure, others)
-        rim = Rim.of(nearly.shear, borne, np.zeros_like(borne, dtype=bool), borne)
+        bound = self._friction.bound(nearly.contact.pressure, others)
+        rim = Rim.of(nearly.shear, bound, np.zeros_like(bound, dtype=bool), bound)
         slips = _on(nodes, others, rim.full.astype(np.float64)) > 0
         on_rim = self._bound[:, np.newaxis] * _on(nodes, others, rim.outward)
         return np.where(slips[:, np.newaxis], on_rim, _on(nodes, others, nearly.shear))
