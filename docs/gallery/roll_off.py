@@ -3,8 +3,8 @@ Why does a large surface behave differently from a small one?
 =============================================================
 
 A surface as large as one roll-off wavelength follows a power law with α near 1 / (1 + H). One with
-many roll-off wavelengths along its side has many contacts far apart, and α grows towards 0.9. Points
-are means of three periodic surfaces.
+many roll-off wavelengths along its side has many contacts far apart, and α grows towards 0.9.
+Points are means of three periodic surfaces.
 """
 
 import numpy as np
