@@ -119,7 +119,7 @@ def test_a_page_that_does_not_read_is_not_sent_more_and_more(lab):
         before = psutil.Process(lab.process.pid).memory_info().rss
         reader, writer = await lab.connected(
             "GET /link",
-            *("Upgrade: websocket", "Connection: Upgrade", "Sec-WebSocket-Version: 13"),
+            "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13",
             "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==",
         )
         writer.transport.set_write_buffer_limits(high=2**24)

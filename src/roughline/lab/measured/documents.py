@@ -135,8 +135,8 @@ def as_python(texts: ControlTexts, names: Sequence[str]) -> str:
         question.append(f"ask=[{', '.join(asked)}]")
     for kind in (Reading, Preparation):
         name, usual = kind.__name__, vars(kind())
-        told = {k: x for k, x in arguments_for(name, written).items() if x != usual[k]}
-        question += [f"{name.lower()}={_in_python(name, (), told)}"] * bool(told)
+        changed = {k: x for k, x in arguments_for(name, written).items() if x != usual[k]}
+        question += [f"{name.lower()}={_in_python(name, (), changed)}"] * bool(changed)
     values = "answer.mean, answer.scatter" if is_part else "answer.values"
     end = "" if is_part else 'result.curve.write("curve.nc")\n'
     arguments = "".join(f"        {each},\n" for each in question)

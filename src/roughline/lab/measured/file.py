@@ -96,7 +96,7 @@ def _described(
             def made() -> Measurement:
                 return measurement(source.path, reading.channel, source.name)
 
-            def body_of(piece: Measurement, reading: Reading, rest: Preparation | None) -> Body:
+            def read_body(piece: Measurement, reading: Reading, rest: Preparation | None) -> Body:
                 """The body as it is read; kept, because filling missing points loads slowly."""
                 keeps_trend = rest is not None and rest.trend is not None
                 asked = source.key, reading, preparation and preparation.crop, keeps_trend
@@ -104,7 +104,7 @@ def _described(
 
             content = cached(session, "measurement", (source.key, reading.channel), made)
             found = describe_measurement(
-                source.path, content, reading, preparation, body_of=body_of
+                source.path, content, reading, preparation, body_of=read_body
             )
             return found, preparation
 
