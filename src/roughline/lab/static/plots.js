@@ -56,12 +56,15 @@ class Plots {
   #named = new Map(); // names of curves by the sources of these
   #counts = {}; // points in a source
   #models = new Map(); // by their names, for which Bokeh looks through all
+  #views = new Map(); // of plots by their names, for the same reason
 
   constructor(made) {
     this.made = made;
     for (const root of made.roots()) {
       this.#addNames(root);
-      Bokeh.index.find_one(root)?.repainted.connect(() => {
+      const view = Bokeh.index.find_one(root);
+      this.#views.set(root.name, view);
+      view?.repainted.connect(() => {
         if (legendOf(root).length) this.#placeNames(root);
         this.#tellDrawn(root.name);
       });
@@ -73,7 +76,7 @@ class Plots {
   // A picture that is the same as the one before is painted again for it.
   shows(plot, what) {
     this.#shown.set(plot, [...(this.#shown.get(plot) ?? []), what]);
-    Bokeh.index.find_one(this.root(plot))?.schedule_paint();
+    this.#views.get(plot)?.schedule_paint();
   }
 
   #tellDrawn(plot) {
@@ -134,7 +137,7 @@ class Plots {
 
   // Put the names of a plot to ends of what they name: where these are apart, and a name covers least.
   #placeNames(root) {
-    const {frame: {bbox, x_scale, y_scale}} = Bokeh.index.find_one(root), taken = [];
+    const {frame: {bbox, x_scale, y_scale}} = this.#views.get(root.name), taken = [];
     const named = [...placeOf(root.name).querySelectorAll(".names li:not([hidden])")].map((item) => {
       const lines = item.dataset.sources.split(";").map((name) => this.#lineOf(name, x_scale, y_scale)).filter(({points}) => points.length);
       return {item, lines, lasts: lines.map(({points}) => points.at(-1)), firsts: lines.map(({points}) => points[0])};
