@@ -106,7 +106,10 @@ def test_without_friction_nothing_is_said_of_it():
         ({"shear_bars": [0.0, 0.1, -0.1, 0.2]}, "friction bears less than mu F = 0.09"),
         ({"shear_bars": [0.0, 0.1, float("nan"), 0.0]}, "friction bears less than mu F"),
         ({"half_space": None}, "Poisson"),
-        ({"hardness_bar": 1.0}, "bodies that yield or stick"),
+        (
+            {"hardness_bar": 1.0, "half_space": rl.Homogeneous(1.0, True, poisson=0.3, beta=0.2)},
+            "coupled bodies that yield",
+        ),
         ({"model": "reduced", "half_space": None}, "a plan has it of surfaces"),
         ({"friction": -0.3}, "above 0 and up to 5"),
         ({"friction": "much"}, "friction"),

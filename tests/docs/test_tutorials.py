@@ -92,7 +92,7 @@ def test_the_three_stiffnesses_of_a_measured_map(type_in, topographies):
 
 def test_the_plan_of_a_campaign_has_the_cases_that_the_page_tells(tmp_path):
     page = (DOCS / "how-to" / "campaign.md").read_text("utf-8")
-    text, bodies = re.findall(r"^```toml\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
+    text, bodies, sheared = re.findall(r"^```toml\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
     (tmp_path / "study.toml").write_text(text)
     plan = campaign.read_plan(tmp_path / "study.toml")
     assert f"{plan.name}: {plan.cases} cases to compute" in page
@@ -103,3 +103,9 @@ def test_the_plan_of_a_campaign_has_the_cases_that_the_page_tells(tmp_path):
     of_surfaces = campaign.read_plan(tmp_path / "study.toml").ensemble("surfaces-n256")
     assert of_surfaces.law == rl.Dugdale(work_of_adhesion=0.2, range=0.4)
     assert of_surfaces.half_space == rl.Layered(1.0, 0.3, 0.1, math.inf)
+    surfaces = elastic[: elastic.index("[[")] + elastic[elastic.rindex("[[") :]
+    frictionless = "".join(each for each in surfaces.splitlines(True) if "force_bars" not in each)
+    (tmp_path / "study.toml").write_text(frictionless + sheared)
+    of_surfaces = campaign.read_plan(tmp_path / "study.toml").ensemble("surfaces-n256")
+    assert of_surfaces.friction == rl.Friction(0.3)
+    assert len(of_surfaces.shear_bars) == len(of_surfaces.force_bars) == 4

@@ -235,10 +235,11 @@ class Ensemble:
             self._refuse(f"friction is {friction!r}; an rl.Friction is needed, such as 0.3")
         if self.model == "reduced":
             self._refuse('friction is given, and a plan has it of surfaces: take model = "full"')
-        if self.hardness_bar is not None or self.law is not None:
+        if self.law is not None:
+            self._refuse("friction of bodies that stick is not solved: leave law out")
+        if self.hardness_bar is not None and self.pressed_into.is_coupled:
             self._refuse(
-                "friction of bodies that yield or stick is not solved: leave hardness_bar "
-                "and law out"
+                "friction of coupled bodies that yield is not solved: leave hardness_bar out, or beta"
             )
         if shears is None:
             self._refuse(
