@@ -62,7 +62,7 @@ _SLOPE_FACTOR = 1.6  # Persson's theory has sqrt(2), and has too little in conta
 # A load with its stiffness takes as long as so many convolutions of whole fields, on average over a
 # path, most of it for steps that are restricted to the contact.
 _CONVOLUTIONS = 14
-TIMES_WITH_FRICTION = {False: 4, True: 40}
+TIMES_WITH_FRICTION = {False: 3, True: 26}
 """As long as so many loads without friction one with it takes, with both tangents, of uncoupled and
 of coupled bodies: as `make friction-speed` measured on 512 points a side."""
 
