@@ -239,7 +239,8 @@ class Ensemble:
             self._refuse("friction of bodies that stick is not solved: leave law out")
         if self.hardness_bar is not None and self.pressed_into.is_coupled:
             self._refuse(
-                "friction of coupled bodies that yield is not solved: leave hardness_bar out, or beta"
+                "friction of coupled bodies that yield is not solved: leave hardness_bar out, "
+                "or beta"
             )
         if shears is None:
             self._refuse(

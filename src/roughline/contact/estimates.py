@@ -66,8 +66,8 @@ TIMES_WITH_FRICTION = {False: 3, True: 26}
 """As long as so many loads without friction one with it takes, with both tangents, of uncoupled and
 of coupled bodies: as `make friction-speed` measured on 512 points a side."""
 
-# How shear displaces, of uncoupled and of coupled bodies, as measured on 512 points a side; the way that each point has slipped; and
-# of each load whose fields are kept its shear, slip, way and stick.
+# How shear displaces, of uncoupled and of coupled bodies, as measured on 512 points a side; the way
+# that each point has slipped; of each load whose fields are kept its shear, slip, way and stick.
 _SHEAR_BYTES = {False: 55, True: 172}
 _SLIPPED_BYTES, _SLIDING_FIELDS_BYTES = 8, 41
 _SHORTEST_SECONDS = 1e-3  # of a load, on any grid [s]
