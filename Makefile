@@ -11,7 +11,7 @@ PEERS_PYTHON ?= $(BIN)/python
 unexport PYTHONDONTWRITEBYTECODE
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: full long durations cases mutants lab paper paper-full test check benchmark turns peers memory grid-error coverage coverage-table intervals interface-stiffness part-coverage leak-coverage seal-coverage bootstrap-coverage persson contact-area robustness friction-paths friction-speed soak yielding yield-of-maps square-leakage start-up constants flow-benchmark pull-off layers permeance lab-benchmark study correlations finite-size area averaging sealing friction published paper-figures docs measured-figures validation lowest newest dist architecture clean
+.PHONY: full long durations cases mutants lab paper paper-full test check benchmark turns peers memory grid-error coverage coverage-table intervals interface-stiffness part-coverage leak-coverage seal-coverage bootstrap-coverage persson contact-area robustness friction-paths friction-speed friction-peers soak yielding yield-of-maps square-leakage start-up constants flow-benchmark pull-off layers permeance lab-benchmark study correlations finite-size area averaging sealing friction published paper-figures docs measured-figures validation lowest newest dist architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -128,6 +128,10 @@ layers: $(VENV)/installed
 
 friction-speed: $(VENV)/installed
 	$(BIN)/python benchmarks/friction_speed.py
+
+# PEERS_PYTHON has ASPHER beside roughline's own libraries, as for `peers`
+friction-peers: $(VENV)/installed
+	PYTHONPATH=src $(PEERS_PYTHON) benchmarks/friction_peers.py
 
 permeance: $(VENV)/installed
 	$(BIN)/python benchmarks/permeance.py
