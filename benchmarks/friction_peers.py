@@ -54,9 +54,7 @@ def measure(page, points, poisson):
     """Rows of one grid."""
     surface = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(points, rng=7)
     ours(surface, poisson)  # compiles, and makes what is kept of the grid
-    runs = [
-        (ours(surface, poisson), theirs(surface, poisson)) for _ in range(1 if poisson else 2)
-    ]
+    runs = [(ours(surface, poisson), theirs(surface, poisson)) for _ in range(1 if poisson else 2)]
     (mine, _, largest), (its, _) = runs[0]
     ratio = min(run[1][1] for run in runs) / min(run[0][1] for run in runs)
     for share, (shear, slide, _), (other, its_slide, converged) in zip(

@@ -8,7 +8,13 @@ from functools import cache
 
 @cache
 def up() -> None:
-    """Do small tasks of the view "Explore" with one thread: they load and compile everything."""
+    """Do small tasks of the view "Explore" with one thread: they load and compile everything.
+
+    The transforms are left without threads of their own: each fork would wait until these have
+    ended, and now and then for ever.
+    """
+    import ducc0
+
     import roughline as rl
     from roughline.lab.explore import pictures
 
@@ -20,6 +26,7 @@ def up() -> None:
         arguments = {"state": {"n": "64", **special}, "session": {}}
         for task in (pictures.reduced, pictures.full):
             task(arguments, lambda done, total: None)
+    ducc0.misc.resize_thread_pool(1)
     gc.freeze()  # what is loaded stays shared with the processes that are forked
 
 

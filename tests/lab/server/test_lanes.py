@@ -213,6 +213,21 @@ def test_a_stopped_task_frees_its_core(tmp_path):
     run(scenario, lasting=False)
 
 
+def test_the_process_that_forks_has_one_thread():
+    """A fork waits for the threads of the transforms, which may not end."""
+    if not processes._FORKS:
+        pytest.skip("nothing forks here")
+    from multiprocessing import forkserver
+
+    async def scenario(lane, asker):
+        await lane.prepare()
+        asker.ask("echo", say="alive")
+        await asker.of("slot")
+        assert psutil.Process(forkserver._forkserver._forkserver_pid).num_threads() == 1
+
+    run(scenario, lasting=False)
+
+
 @pytest.mark.parametrize("lasting", [True, False])
 def test_a_question_in_the_place_of_one_that_waits_keeps_its_turn(lasting):
     async def scenario(lane, asker):
