@@ -253,10 +253,6 @@ REFUSED = {
         {"body": rl.Line(np.sin(np.arange(256.0)) * 1e-7, length=1e-3, unit="m")},
         "answers of stick and slip are those of maps",
     ),
-    "layers, free": (
-        {"materials": "E=1 GPa nu=0.4 0.1 mm on E=3 GPa nu=0.3, rigid"},
-        "shear",
-    ),
 }
 
 

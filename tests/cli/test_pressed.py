@@ -46,11 +46,11 @@ def test_loads_keep_their_order_and_words_and_are_solved_once(rough, invoke, mon
     assert found["curve"]["force"] == [10.0, 2.0, 2.0]
     assert found["answers"]["F"]["values"] == [10.0, 2.0, 2.0]
     assert np.argsort(found["curve"]["depth"])[-1] == 0
-    # and again of elastic bodies, and as soft and as hard as copper may be
-    assert solved == [[2.0, 10.0]] * 4
+    # and again of elastic bodies, and as soft and as hard as copper may be; and a flat punch
+    assert solved == [[2.0, 10.0], None, *[[2.0, 10.0]] * 3]
     solved.clear()
     code, out, _ = invoke("press", rough, *PAIR, *loads, "--elastic", "--all")
-    assert solved == [[2.0, 10.0]]
+    assert solved == [[2.0, 10.0], None]
     assert table_lines(out)[0].split() == ["10", "N", "2", "N", "2000", "mN"]
 
 

@@ -88,7 +88,6 @@ def test_the_contact_is_that_without_shear():
         ({"mu": "0"}, "mu", "from 0.01 to 2"),
         ({"w": "1", "D_f": "2.2"}, "mu", "take the adhesion away"),
         ({"hardness_bar": "0.3"}, "mu", "take the hardness away"),
-        ({"t": "0.05"}, "mu", "make it periodic"),
     ],
 )
 def test_what_cannot_be_sheared_is_refused_where_it_stands(more, at, why):
