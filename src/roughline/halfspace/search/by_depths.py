@@ -22,7 +22,7 @@ from roughline.halfspace.search.problem import Contact, Load, Outcome
 _STEP_GROWTH = 2.0  # by which a step to the next depth may be longer than the one before
 _MOST_TRIALS = 100
 _DIP_STEPS = 8  # steps across an interval with a least force
-_STEPS_APART = 32  # from a depth to first touch, at least, or as the reach of the pull tells
+_STEPS_APART = 8  # from a depth to first touch, at least, or as the reach of the pull tells
 # A part of what nodes bear: a force that is missed by no more is then given itself, and what bears
 # no more beside another state has come off.
 _CLOSE_FORCE = 1e-2
@@ -305,7 +305,7 @@ def _longest_step(state: State) -> float:
     A long way is taken in a number of steps, however short the reach is.
     """
     reach = float(state.contact.problem.law.gap_at(np.array([0.5]))[0])
-    return max(reach / 2, (abs(state.depth) + reach) / _STEPS_APART)
+    return max(reach, (abs(state.depth) + reach) / _STEPS_APART)
 
 
 def _force(state: State) -> float:
