@@ -99,7 +99,7 @@ def test_elastic_bodies_are_known_by_the_settings_that_they_always_had():
         ),
         (
             {"force_bars": [1.0, 2.0, 1.0], "hardness_bar": 1},
-            "rising, and 1 came after 2: sort them; a plan without friction has no loading histories",
+            "and 1 came after 2: sort them; a plan without friction has no loading histories",
         ),
     ],
 )
