@@ -331,7 +331,10 @@ def _sum_by_pressure(
     first: Floats,
     second: Floats,
 ) -> None:
-    """Add the displacements along the surface by near pressure, opposite at opposite distances."""
+    """Add the displacements along the surface by near pressure, opposite at opposite distances.
+
+    A loop of its own: one with all kinds of results would not be vectorised.
+    """
     (parts, reach), last = near, len(grids) - 1
     along_x, along_y, z = parts[last + 1], parts[last + 2], grids[last].reshape(-1)
     width, across = grids[last].shape[1], (along_x.shape[1] - 4) // 2
