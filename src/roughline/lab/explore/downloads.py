@@ -54,8 +54,8 @@ def _write_maps(state: ExploreState, points: int, path: Path, progress: Progress
             for name, (values, unit, meaning) in each.saved_fields(fields).items():
                 maps[name] = (("x", "y"), values, {"units": unit, "long_name": meaning})
     heights = xarray.load_dataset(path)
-    told = maps.attrs | heights.attrs | _link(state)
-    write_dataset(heights.merge(maps).assign_attrs(told), path)
+    attributes = maps.attrs | heights.attrs | _link(state)
+    write_dataset(heights.merge(maps).assign_attrs(attributes), path)
 
 
 def _write_surface(state: ExploreState, points: int, path: Path, progress: Progress) -> None:
