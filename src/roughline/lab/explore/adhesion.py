@@ -11,16 +11,18 @@ import numpy as np
 import roughline as rl
 from roughline.halfspace.laws.pulling_zone import RESOLVED_FROM
 from roughline.halfspace.operators.cell import cell_compliance
-from roughline.lab.controls import ControlError, Number, as_code
+from roughline.lab.controls import ControlError, as_code
+from roughline.lab.explore.controls import DECLARED
 from roughline.lab.explore.panels import BACK, selected_points
 from roughline.lab.explore.state import (
+    FIGURES,
     SURFACE_KEYS,
     AddedCode,
     ExploreState,
     PageAnswer,
     Physics,
-    StripFigure,
     StripWords,
+    figures,
 )
 from roughline.lab.explore.words import number_rows
 from roughline.lab.maps import Map
@@ -34,34 +36,6 @@ _DEPTHS_IN, _DEPTHS_OUT = 25, 35
 _PULL_FACTOR = 1.5  # times the largest pull of the depths: more than is borne
 _ALL_LOADS = 69  # a few of which the forces add
 
-_PULLING = StripFigure(
-    "pulling",
-    "pulled",
-    "Share of the nominal area across whose gap the bodies pull each other, on the way to this "
-    "load.",
-    after="pull_off",
-)
-_ZONE = StripFigure(
-    "zone",
-    "pulling zone",
-    "Width of the zone that pulls about a contact, E* w / (π σ_0²) with σ_0 = w / h_0, in cells of "
-    f"this grid; {RESOLVED_FROM:g} resolve it.",
-    after="pulling",
-)
-_RETREAT = StripFigure(
-    "retreat",
-    "contact, way back",
-    "Real contact area at this load on the way back from twice as much, beside that on the way "
-    "there.",
-    after="roughness",
-)
-_PULL_OFF = StripFigure(
-    "pull_off",
-    "pull-off",
-    "Largest pull F / (E* h L) that the contact bears on the way back; below it with its unit, and "
-    "over the nominal area.",
-    after="retreat",
-)
 _IN_PYTHON = """print("area_fraction_corrected, way back", curve.area_fraction_corrected[2])
 
 apart = -2 * h_0 - math.sqrt(2 * math.sqrt(math.pi) * work * length / E_star)
@@ -90,41 +64,14 @@ class AdhesionPhysics(Physics):
         "The bodies pull each other across small gaps: they jump together, hold each other on the "
         "way back, and come off under a pull. Without a hardness alone."
     )
-    controls = (
-        Number(
-            key="w",
-            symbol="w L/(E*h²)",
-            name="work of adhesion",
-            low=1e-4,
-            high=10.0,
-            default=1.0,
-            meaning="Work to separate a unit of area, over E* h² / L, or with a unit, such as 50 "
-            "mJ/m^2. About 1 is what it takes to flatten the longest waves.",
-            unit="J/m**2",
-            state_scale=lambda state: float(state.E_star * state.rms_height**2 / state.length),
-            over="E* h² / L",
-        ),
-        Number(
-            key="h0",
-            symbol="h_0/h",
-            name="range of the pull",
-            low=1e-3,
-            high=2.0,
-            default=0.5,
-            meaning="Largest gap across which the bodies pull each other, evenly with w / h_0, "
-            "over the rms height, or with a unit, such as 5 nm. A shorter one takes a finer grid.",
-            unit="m",
-            state_scale=lambda state: float(state.rms_height),
-            over="h",
-        ),
-    )
+    controls = (DECLARED["w"], DECLARED["h0"])
     unlike = "without adhesion"
     excludes: ClassVar = {
         "hardness_bar": "bodies that stick and yield have no law here: take the hardness away, or "
         "the adhesion"
     }
     maps: ClassVar = {"retreat": "area, way back"}
-    strip = (_RETREAT, _PULL_OFF, _PULLING, _ZONE)
+    strip = figures("retreat", "pull_off", "pulling", "zone")
     panels = (
         Panel(
             key="cycle",
@@ -150,8 +97,7 @@ class AdhesionPhysics(Physics):
 
     def law(self, state: ExploreState) -> rl.Dugdale:
         """An even pull up to a range."""
-        work = self.w * state.E_star * state.rms_height**2 / state.length
-        return rl.Dugdale(work_of_adhesion=work, range=self.h0 * state.rms_height)
+        return rl.Dugdale(work_of_adhesion=self.in_si("w", state), range=self.in_si("h0", state))
 
     def check(self, state: ExploreState) -> None:
         """Refuse a grid that does not resolve the pull."""
@@ -173,13 +119,12 @@ class AdhesionPhysics(Physics):
 
     def words(self, pressed: rl.SurfaceCurve, fields: rl.Fields, state: ExploreState) -> StripWords:
         """Where bodies pull each other at the load, and how well the grid resolves that."""
-        yield _PULLING.in_words(f"{figure(100 * float(pressed.pulling_fraction[0]))}%")
-        cells = f"{figure(self.zone(state, len(fields.gap)), 2)} cells"
-        if self.is_resolved(state, len(fields.gap)):
-            yield _ZONE.in_words(cells)
-        else:
-            needed = f"{RESOLVED_FROM:g} are needed: a longer range, or a finer grid"
-            yield _ZONE.in_words(f"{cells} *", needed)
+        yield FIGURES["pulling"].in_words(f"{figure(100 * float(pressed.pulling_fraction[0]))}%")
+        value, below = f"{figure(self.zone(state, len(fields.gap)), 2)} cells", ""
+        if not self.is_resolved(state, len(fields.gap)):
+            value += " *"
+            below = f"{RESOLVED_FROM:g} are needed: a longer range, or a finer grid"
+        yield FIGURES["zone"].in_words(value, below, f" {RESOLVED_FROM:g} resolve it.")
 
     def added_maps(self, fields: rl.Fields, state: ExploreState) -> dict[str, Map]:
         """Where bodies touch, and where they pull each other."""
@@ -302,9 +247,9 @@ def _pull_off(found: _BothWays, state: ExploreState) -> str:
 def _words_of_the_way_back(found: _BothWays, state: ExploreState, n: int) -> StripWords:
     """The contact on the way back, and the pull-off."""
     area = float(found.by_forces.area_fraction_corrected[_LOAD_BACK])
-    yield _RETREAT.in_words(f"{figure(100 * area)}%", f"on {n}² points")
+    yield FIGURES["retreat"].in_words(f"{figure(100 * area)}%", f"on {n}² points")
     below = "the grid does not resolve the pull"
     if math.isfinite(found.pull):
         pressure = up_to_three_digits(found.pull / state.length**2, None, "Pa")
         below = f"{up_to_three_digits(found.pull, None, 'N')}, {pressure}, on {n}² points"
-    yield _PULL_OFF.in_words(_pull_off(found, state), below)
+    yield FIGURES["pull_off"].in_words(_pull_off(found, state), below)

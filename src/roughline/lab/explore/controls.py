@@ -4,19 +4,12 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
 from roughline.errors.checks import shown
-from roughline.lab.controls import (
-    Choice,
-    Control,
-    ControlError,
-    Number,
-    QuantityText,
-    Several,
-    is_number,
-)
+from roughline.lab import declared
+from roughline.lab.controls import Control, ControlError, Number, QuantityText, is_number
+from roughline.lab.declared import NumberScale
 from roughline.units import load_in_newtons
 
 _HURST = re.compile(r"\s*H\s*=(?P<hurst>.*)")
@@ -47,136 +40,19 @@ class LoadNumber(Number):
         return load_in_newtons(text, state.length**2, self.name)
 
 
-over_side = partial(Number, unit="m", state_scale=lambda state: float(state.length), over="sides")
-"""A length, over the side of the surface."""
-poissons_ratio = partial(Number, low=0.0, high=0.5, default=0.3, scale="linear", step=0.01)
-"""Poisson's ratio of a body."""
-
-_NUMBERS = (
-    _Dimension(
-        key="D_f",
-        symbol="D_f",
-        name="fractal dimension",
-        low=2.0,
-        high=3.0,
-        default=2.2,
-        meaning="How rough the surface is on small scales: 2 is smooth, 3 fills space; D_f = 3 - "
-        "H, with the Hurst exponent H. It has no unit. H may be typed instead, as H = 0.8.",
-        scale="linear",
+_SCALES = {
+    "sides": NumberScale("m", lambda state: state.length),
+    "h": NumberScale("m", lambda state: state.rms_height),
+    "E* h L": NumberScale("N", lambda state: state.force(1.0), LoadNumber),
+    "F": NumberScale("N", lambda state: state.force(state.F), LoadNumber),
+    "E*": NumberScale("Pa", lambda state: state.E_star),
+    "E* ∇h": NumberScale("Pa", lambda state: state.E_star * state.rms_slope),
+    "E* h² / L": NumberScale(
+        "J/m**2", lambda state: state.E_star * state.rms_height**2 / state.length
     ),
-    over_side(
-        key="roll_off",
-        symbol="λ_r/L",
-        name="roll-off wavelength",
-        low=1 / 32,
-        high=1.0,
-        default=1.0,
-        meaning="The spectrum is flat for waves longer than this. Relative to the side of the "
-        "surface, or with a unit, such as 0.2 mm; at 1 there is no plateau.",
-    ),
-    over_side(
-        key="cutoff",
-        symbol="λ_s/L",
-        name="cutoff wavelength",
-        low=1 / 512,
-        high=0.5,
-        default=1 / 512,
-        meaning="Length of the shortest wave. Relative to the side of the surface, or with a unit; "
-        "n points along a side carry no waves shorter than 2/n, which is the default of each grid.",
-    ),
-    over_side(
-        key="h",
-        symbol="h/L",
-        name="rms height",
-        low=1e-6,
-        high=0.1,
-        default=1e-3,
-        meaning="Root-mean-square height. Relative to the side of the surface, or with a unit: 0.3 "
-        "um.",
-    ),
-    Number(
-        key="slope",
-        symbol="∇h",
-        name="rms slope",
-        low=1e-4,
-        high=1.0,
-        default=0.1,
-        meaning="Root-mean-square slope of the surface on its grid, without unit; the theory "
-        "assumes small slopes.",
-    ),
-    Number(
-        key="seed",
-        symbol="seed",
-        name="seed",
-        low=0,
-        high=999_999,
-        default=20,
-        meaning="Selects one of all random surfaces: the same seed gives the same surface, with "
-        "more detail on a finer grid.",
-        scale="whole",
-        step=1,
-    ),
-    LoadNumber(
-        key="F",
-        symbol="F̄",
-        name="load",
-        low=1e-4,
-        high=10.0,
-        default=0.1,
-        meaning="Dimensionless force F / (E* h L), or with a unit: a force such as 10 N, or a mean "
-        "pressure such as 2 MPa.",
-        unit="N",
-        state_scale=lambda state: float(state.force(1.0)),
-        over="E* h L",
-    ),
-)
-_CHOICES = (
-    Choice(
-        key="n",
-        name="points along a side",
-        options={str(n): str(n) for n in (64, 128, 256, 512, 1024)},
-        default="512",
-        of=int,
-        meaning="Points along a side of the grid: more points give finer waves and take longer.",
-    ),
-    Choice(
-        key="rms",
-        name="roughness by",
-        options={"height": "rms height", "slope": "rms slope"},
-        default="height",
-        meaning="Which of the two is kept when the spectrum changes.",
-    ),
-    Choice(
-        key="boundary",
-        name="around the surface",
-        options={"free": "free", "periodic": "periodic"},
-        default="free",
-        meaning="Free: the half-space continues, unloaded, around the surface. Periodic: the "
-        "surface is repeated without end; the stiffness is then that of the interface alone.",
-    ),
-    Choice(
-        key="shown",
-        name="contact as",
-        options={
-            **{"area": "area", "pressure": "pressure", "gap": "gap"},
-            **{"displacement": "displacement", "height": "heights", "white": "area on white"},
-        },
-        default="area",
-        meaning="What lies on the relief of the surface.",
-    ),
-    Several(
-        key="theories",
-        name="theory",
-        options={
-            "persson": "Persson",
-            "bush-gibson-thomas": "Bush, Gibson, Thomas",
-            "greenwood-williamson": "Greenwood, Williamson",
-        },
-        default=(),
-        meaning="Theories for the same waves, drawn with the curves; they hold for periodic "
-        "surfaces.",
-    ),
-)
+    "3 - H": NumberScale("", float, _Dimension),
+}
+"""What numbers are over, by its name in their declarations."""
 _QUANTITIES = (
     QuantityText(
         key="L",
@@ -197,13 +73,17 @@ _QUANTITIES = (
         ends=(1.0, 1e14),
     ),
 )
-NUMBERS = {each.key: each for each in _NUMBERS}
-"""Numbers by their keys."""
-CHOICES = {each.key: each for each in _CHOICES}
+DECLARED = declared.numbers(__package__, _SCALES)
+"""All numbers by their keys, those of what may be added to a contact among them."""
+NUMBERS = {key: DECLARED[key] for key in ("D_f", "roll_off", "cutoff", "h", "slope", "seed", "F")}
+"""Those of every contact."""
+CHOICES = declared.choices(__package__, n=int)
 """Choices by their keys."""
 LOAD = "F"
 """Key of the load, which is read when the surface is known."""
-CONTROLS: dict[str, Control] = {each.key: each for each in (*_QUANTITIES, *_CHOICES, *_NUMBERS)}
+CONTROLS: dict[str, Control] = {
+    each.key: each for each in (*_QUANTITIES, *CHOICES.values(), *NUMBERS.values())
+}
 """All controls by their keys, in the order in which they are read: the side and the modulus, which
 are scales of others, come first, and the load last."""
 

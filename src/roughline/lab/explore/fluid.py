@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 import roughline as rl
 from roughline.lab.explore.panels import curve_note, loads, over_force, selected_points
 from roughline.lab.explore.state import (
+    FIGURES,
     AddedCode,
     ExploreState,
     PageAnswer,
     Physics,
-    StripFigure,
     StripWords,
+    figures,
 )
 from roughline.lab.explore.words import number_rows
 from roughline.lab.maps import Map, flux_map, throttled_at
@@ -32,21 +33,6 @@ _THEORIES = {"critical-junction": "critical junction", "bruggeman": "Bruggeman"}
 _FORCES, _THEORY_FORCES = np.geomspace(1e-3, 9, 14), np.geomspace(1e-3, 9, 27)
 _SEALED = "sealed"
 _LOWEST_FACTOR = 3  # factor between the smallest aperture and the end of the axis
-_OPENING = StripFigure(
-    "aperture",
-    "u_h",
-    "Hydraulic aperture: gap of two flat plates that let as much fluid through, from left to "
-    "right; a leak is proportional to its cube. The interval shows how far finer grids may "
-    "change it.",
-    after="area",
-)
-_CHANNEL = StripFigure(
-    "channel",
-    "largest channel",
-    "Largest share of the flow that one channel between two places of contact carries. Below: "
-    "where the fluid is throttled most, the ring in the map, and the gap there.",
-    after="aperture",
-)
 _IN_PYTHON = """flow = rl.flow(curve.fields[0])
 print("hydraulic aperture over rms height", flow.hydraulic_aperture / surface.rms_height)
 print("sealed", flow.is_sealed)
@@ -70,7 +56,7 @@ class FluidPhysics(Physics):
     )
     maps: ClassVar = {"flux": "flux"}
     opens = "flux"
-    strip = (_OPENING, _CHANNEL)
+    strip = figures("aperture", "channel")
     panels = (
         over_force(
             key="aperture",
@@ -107,18 +93,18 @@ class FluidPhysics(Physics):
             ends = float(measured.low[0]), float(measured.high[0])
         if flow.is_sealed:
             at_most = f"at most {engineering(ends[1], 'm', 3)}" if ends and ends[1] > 0 else ""
-            yield _OPENING.in_words(_SEALED, at_most)
+            yield FIGURES["aperture"].in_words(_SEALED, at_most)
             return
         doubt = flow.validity or ("" if flow.converged else "the flow did not converge")
         value = figure(aperture / pressed.rms_height, supported_digits(aperture, ends, 3))
-        yield _OPENING.in_words(
+        yield FIGURES["aperture"].in_words(
             f"{value} h{' *' if doubt else ''}",
             up_to_three_digits(aperture, ends, "m"),
             f" But {doubt}." if doubt else "",
         )
         x, y = map(figure, throttled_at(flow))
         gap = figure(float(flow.gap[flow.constriction]) / pressed.rms_height)
-        yield _CHANNEL.in_words(
+        yield FIGURES["channel"].in_words(
             f"{figure(100 * flow.largest_share)}%" if flow.largest_share else "none",
             f"ring: x {x} L, y {y} L, gap {gap} h",
         )

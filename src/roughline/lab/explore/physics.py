@@ -61,7 +61,7 @@ def owners() -> dict[str, str]:
 
 def declared() -> dict[str, Any]:
     """What the script of the page knows of all kinds and panels."""
-    order = [figure.key for figure in STRIP]
+    order = list(STRIP)
     for figure in (each for kind in PHYSICS for each in kind.strip):
         order.insert(max(order.index(figure.after) + 1, _LEADING), figure.key)
     kinds = {

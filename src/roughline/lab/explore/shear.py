@@ -11,15 +11,16 @@ import roughline as rl
 from roughline.contact.shear_loads import refuse_unknown_shear
 from roughline.contact.sliding import SlidingCurve
 from roughline.engineering.slip import ShearCycles
-from roughline.lab.controls import ControlError, Number, as_code
-from roughline.lab.explore.controls import LoadNumber, poissons_ratio
+from roughline.lab.controls import ControlError, as_code
+from roughline.lab.explore.controls import DECLARED
 from roughline.lab.explore.state import (
+    FIGURES,
     AddedCode,
     ExploreState,
     PageAnswer,
     Physics,
-    StripFigure,
     StripWords,
+    figures,
 )
 from roughline.lab.explore.words import number_rows
 from roughline.lab.maps import Map
@@ -30,34 +31,6 @@ from roughline.report.values import figure, up_to_three_digits
 _PER_CYCLE = 16
 _MOST_SHARE = 1 - 1e-6  # of what friction bears
 
-_SLIDE = StripFigure(
-    "slide",
-    "slide u_Q",
-    "How far the bodies move along each other under the shear force, from none; below it with its "
-    "unit, and what of it is micro-slip.",
-    after="depth",
-)
-_TANGENTIAL = StripFigure(
-    "tangential",
-    "k_t",
-    "Tangential stiffness dQ/du before slip, when all of the contact sticks. Below: under the "
-    "shear force, on more of it.",
-    after="slide",
-)
-_LOST = StripFigure(
-    "lost",
-    "lost a cycle",
-    "Energy that slip dissipates in a cycle of the shear force, the area of the loop; below the "
-    "loss factor, that energy over π Q u.",
-    after="tangential",
-)
-_STUCK = StripFigure(
-    "stuck",
-    "never slips",
-    "Share of the contact that slips under no load of a cycle. Below: the force under which the "
-    "last spot slides.",
-    after="lost",
-)
 _IN_PYTHON = f"""turned = len(shear) - {_PER_CYCLE + 1}  # where the shear force is largest first
 print("slide over rms height", curve.slide[turned, 0] / surface.rms_height)
 print("dissipated in a cycle", curve.dissipated[turned + 1 :].sum(), "J")
@@ -79,44 +52,14 @@ class ShearPhysics(Physics):
         "one by one; as it goes to and fro, force over slide makes a loop. Both bodies are of one "
         "material, elastic and without adhesion."
     )
-    controls = (
-        Number(
-            key="mu",
-            symbol="μ",
-            name="coefficient of friction",
-            low=0.01,
-            high=2.0,
-            default=0.3,
-            meaning="Where they slip, the bodies bear μ times the pressure. It has no unit.",
-        ),
-        LoadNumber(
-            key="Q",
-            symbol="Q/F",
-            name="shear force",
-            low=1e-3,
-            high=2.0,
-            default=0.15,
-            meaning="Largest shear force over the load, or with a unit: a force such as 2 N, or a "
-            "mean stress such as 0.4 MPa. It is less than μ F, under which the bodies slide.",
-            unit="N",
-            state_scale=lambda state: float(state.force(state.F)),
-            over="F",
-        ),
-        poissons_ratio(
-            key="nu",
-            symbol="ν",
-            name="Poisson's ratio",
-            meaning="Of both bodies, without unit, at the same contact modulus; a layer and its "
-            "base have their own.",
-        ),
-    )
+    controls = (DECLARED["mu"], DECLARED["Q"], DECLARED["nu"])
     excludes: ClassVar = {
         "hardness_bar": "shear of bodies that yield is not solved: take the hardness away, or the "
         "shear",
         "w": "shear of bodies that stick is not solved: take the adhesion away, or the shear",
     }
     maps: ClassVar = {"stick": "stick and slip"}
-    strip = (_SLIDE, _TANGENTIAL, _LOST, _STUCK)
+    strip = figures("slide", "tangential", "lost", "stuck")
     panels = (
         Panel(
             key="loop",
@@ -167,7 +110,7 @@ class ShearPhysics(Physics):
     def further(self, state: ExploreState, refines: bool, progress: Progress) -> PageAnswer:
         """Follow a cycle of the shear force, under the load."""
         n, is_coarse = state.staged(refines)
-        shear = rl.cycle(self.Q * float(state.force(state.F)), per_cycle=_PER_CYCLE, cycles=1)
+        shear = rl.cycle(self.in_si("Q", state), per_cycle=_PER_CYCLE, cycles=1)
         curve = state.press(
             state.surface(n),
             progress,
@@ -194,7 +137,7 @@ class ShearPhysics(Physics):
         )
         periodic = ", periodic=True" if state.periodic else ""
         material = f"E={as_code(2 * state.E_star * (1 - self.nu**2))} Pa nu={poisson}"
-        in_words = state.in_words("Q", "N", self.Q * float(state.force(state.F)))
+        in_words = state.in_words("Q", "N", self.in_si("Q", state))
         friction = f"friction=rl.Friction({as_code(self.mu)})"
         return AddedCode(
             half_space=f"half_space = rl.Homogeneous(E_star, poisson={poisson}{periodic})\n",
@@ -237,13 +180,17 @@ def _words(cycle: ShearCycles, n: int) -> StripWords:
 
     slide = f"{figure(cycle.displacement / cycle.curve.rms_height)} h"
     slip = f"of it {written(cycle.micro_slip, 'm')} slip"
-    yield _SLIDE.in_words(slide, f"{written(cycle.displacement, 'm')}, {slip}, on {n}² points")
+    yield FIGURES["slide"].in_words(
+        slide, f"{written(cycle.displacement, 'm')}, {slip}, on {n}² points"
+    )
     going_on = f"on more shear {written(cycle.stiffness_on, 'N/m')}"
-    yield _TANGENTIAL.in_words(written(cycle.stiffness_before, "N/m"), going_on)
-    yield _LOST.in_words(written(cycle.energy, "J"), f"loss factor {figure(cycle.loss_factor)}")
+    yield FIGURES["tangential"].in_words(written(cycle.stiffness_before, "N/m"), going_on)
+    yield FIGURES["lost"].in_words(
+        written(cycle.energy, "J"), f"loss factor {figure(cycle.loss_factor)}"
+    )
     share, limit = cycle.sticking_share, f"slides under {written(cycle.limit, 'N')}"
     assert share is not None
-    yield _STUCK.in_words(f"{figure(100 * share)}%", limit)
+    yield FIGURES["stuck"].in_words(f"{figure(100 * share)}%", limit)
 
 
 def _stick_map(cycle: ShearCycles) -> Map:

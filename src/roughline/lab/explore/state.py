@@ -23,7 +23,8 @@ from roughline.lab.controls import (
     has_unit,
     is_number,
 )
-from roughline.lab.explore.controls import CONTROLS
+from roughline.lab.declared import section
+from roughline.lab.explore.controls import CONTROLS, DECLARED
 from roughline.lab.maps import Map
 from roughline.lab.panels import Panel, PanelContent, Series
 from roughline.lab.server.tasks import Progress
@@ -58,6 +59,19 @@ class StripFigure:
         """It in words, what stands below, and what more it means."""
         words = {"key": self.key, "symbol": self.symbol, "value": value}
         return words | {"below": below, "meaning": self.meaning + more}
+
+
+FIGURES = {
+    key: StripFigure(key, symbol, each.meaning, *after)
+    for key, each in section(__package__, "strip").items()
+    for symbol, *after in [each.parts]
+}
+"""All numbers of the strip, by their keys."""
+
+
+def figures(*keys: str) -> tuple[StripFigure, ...]:
+    """Some numbers of the strip."""
+    return tuple(FIGURES[key] for key in keys)
 
 
 @dataclass(frozen=True)
@@ -105,6 +119,10 @@ class Physics:
             sentence = f"{cls.tick} is {shown(set_to)}; allowed is {cls.word}, or nothing"
             raise ControlError(sentence, cls.key)
         return cls(**{each.key: each.read_in(texts, state) for each in cls.controls})
+
+    def in_si(self, key: str, state: ExploreState) -> float:
+        """A number of its own, times what it is over. [SI]"""
+        return float(getattr(self, key) * DECLARED[key].state_scale(state))
 
     @property
     def numbers(self) -> dict[str, float]:

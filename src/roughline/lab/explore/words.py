@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 import roughline as rl
 from roughline.contact.quantities import RESOLVED_FROM
-from roughline.lab.explore.state import ExploreState, StripFigure, StripWords
+from roughline.lab.explore.state import FIGURES, ExploreState, StripWords
 from roughline.margins.grid import intervals_of_grid
 from roughline.report.values import figure, up_to_three_digits
 from roughline.units import supported_digits
@@ -19,45 +19,15 @@ _DIGITS = 3
 LINES = 20
 """How many lines stand for the reduced model, by their mean stiffness."""
 
-_LINES = StripFigure(
-    "stiffness_1d",
-    "k (1D)",
-    f"Stiffness of the reduced model, mean of {LINES} lines with the same waves. It is made for "
-    "the free half-space of one material, dry and elastic.",
-)
-_STIFFNESS = StripFigure(
-    "stiffness_3d",
-    "stiffness k",
-    "Stiffness of the full model: the exact slope dF/dd. The interval shows how far finer grids "
-    "may change it.",
-)
-_AREA = StripFigure(
-    "area",
-    "contact area",
-    "Real contact area over the nominal one, corrected for the steps of its outline. The interval "
-    "shows how much finer grids, with finer roughness, may change it.",
-)
-_PRESSURE = StripFigure(
-    "pressure",
-    "pressure p_c",
-    "Mean pressure within the contact, over the cells that touch. The interval is that of the "
-    "contact area.",
-)
-_DEPTH = StripFigure("depth", "d", "Depth since the first touch of the highest summit.")
-_FORCE = StripFigure(
-    "force",
-    "F",
-    "Total force on the surface, for the side and the contact modulus that are set.",
-)
-_ROUGHNESS = StripFigure("roughness", "h", "Rms height; the rms slope on this grid is given below.")
-STRIP = (_STIFFNESS, _AREA, _PRESSURE, _DEPTH, _FORCE, _ROUGHNESS)
-"""Numbers of the full model, in their order; that of the reduced one is told as a comparison."""
+STRIP = ("stiffness_3d", "area", "pressure", "depth", "force", "roughness")
+"""Numbers of the full model by their keys; that of the reduced one is told as a comparison."""
 
 
 def line_words(state: ExploreState, stiffness: float) -> dict[str, str]:
     """What the reduced model gives at the load."""
     in_unit = up_to_three_digits(stiffness * state.E_star * state.length, None, "N/m")
-    return _LINES.in_words(in_unit, unlike(state))
+    mean = f" mean of {LINES} lines with the same waves."
+    return FIGURES["stiffness_1d"].in_words(in_unit, unlike(state), mean)
 
 
 def unlike(state: ExploreState) -> str:
@@ -71,15 +41,19 @@ def contact_words(
     """What the full model gives at the load."""
     if not pressed.converged[0] or fields is None:
         unsolved = f"The load was not solved: {rl.Status(pressed.status[0]).reason}"
-        yield replace(_STIFFNESS, meaning=unsolved).in_words("not solved")
+        yield replace(FIGURES["stiffness_3d"], meaning=unsolved).in_words("not solved")
         return
     in_contact = float(fields.pressure[fields.contact].mean())
     yield from _with_intervals(pressed, in_contact, state)
     height, force, depth = surface.rms_height, float(pressed.force[0]), float(pressed.depth[0])
-    yield _DEPTH.in_words(f"{figure(depth / height)} h", up_to_three_digits(depth, None, "m"))
+    yield FIGURES["depth"].in_words(
+        f"{figure(depth / height)} h", up_to_three_digits(depth, None, "m")
+    )
     mean = up_to_three_digits(force / state.length**2, None, "Pa")
-    yield _FORCE.in_words(up_to_three_digits(force, None, "N"), f"{mean} over the nominal area")
-    yield _ROUGHNESS.in_words(
+    yield FIGURES["force"].in_words(
+        up_to_three_digits(force, None, "N"), f"{mean} over the nominal area"
+    )
+    yield FIGURES["roughness"].in_words(
         up_to_three_digits(height, None, "m"), f"slope {figure(surface.rms_slope)}"
     )
     for each in state.added:
@@ -94,19 +68,19 @@ def _with_intervals(pressed: rl.SurfaceCurve, in_contact: float, state: ExploreS
     of_area = first(intervals.area) if intervals else None
     sticks = pressed.law is not None and not pressed.law.only_pushes
     rounded, below = stiffness_with_ends(stiffness, of_k, state)
-    yield _STIFFNESS.in_words(
+    yield FIGURES["stiffness_3d"].in_words(
         rounded + " *" * unsure,
         below,
         " It is that at a given reach of the pull: along a branch the slope is less." * sticks
         + f" Fewer than {RESOLVED_FROM} cells touch: the grid decides." * unsure,
     )
-    yield _AREA.in_words(*with_ends(area, of_area, "%"))
+    yield FIGURES["area"].in_words(*with_ends(area, of_area, "%"))
     ends = None
     if of_area and of_area[0] > 0:
         ends = in_contact * area / of_area[1], in_contact * area / of_area[0]
     over = [f"{figure(in_contact / state.E_star)} E*"]
     over += [f"{figure(in_contact / pressed.hardness)} H"] if pressed.hardness else []
-    yield _PRESSURE.in_words(*with_ends(in_contact, ends, "Pa", *over))
+    yield FIGURES["pressure"].in_words(*with_ends(in_contact, ends, "Pa", *over))
 
 
 def status(pressed: rl.SurfaceCurve, n: int, seconds: float, *, is_coarse: bool) -> str:

@@ -8,16 +8,18 @@ from typing import ClassVar
 import numpy as np
 
 import roughline as rl
-from roughline.lab.controls import Number, as_code
+from roughline.lab.controls import as_code
+from roughline.lab.explore.controls import DECLARED
 from roughline.lab.explore.panels import BACK, selected_points
 from roughline.lab.explore.state import (
+    FIGURES,
     AddedCode,
     ExploreState,
     FilledPanels,
     PageAnswer,
     Physics,
-    StripFigure,
     StripWords,
+    figures,
 )
 from roughline.lab.explore.words import first, load_rows, stiffness_with_ends
 from roughline.lab.panels import PanelContent, marks
@@ -26,25 +28,6 @@ from roughline.margins.grid import intervals_of_grid
 from roughline.question.loading import UNLOADING
 from roughline.report.values import figure, up_to_three_digits
 
-_UNLOADING = StripFigure(
-    "unloading",
-    "k_u",
-    "Stiffness on unloading: all of the contact springs back, while on loading the spots at the "
-    "hardness bear no more. Ultrasound and currents depend on it.",
-    after="stiffness_3d",
-)
-_PLASTIC = StripFigure(
-    "plastic",
-    "plastic",
-    "Share of the contact that is at the hardness; the hardness is given below.",
-    after="area",
-)
-_INDENTATION = StripFigure(
-    "indentation",
-    "indentation",
-    "Largest permanent indentation, which remains after unloading.",
-    after="depth",
-)
 _IN_PYTHON = """print("unloading_stiffness", curve.unloading_stiffness[0], "N/m")
 print("plastic_fraction", curve.plastic_fraction[0])
 print("largest indentation over rms height", curve.indentation[0] / surface.rms_height)
@@ -63,24 +46,9 @@ class YieldingPhysics(Physics):
         "Points at which the pressure reaches the hardness bear no more and are permanently "
         "indented; without a hardness both bodies are elastic."
     )
-    controls = (
-        Number(
-            key="hardness_bar",
-            symbol="H/(E*∇h)",
-            name="hardness",
-            low=0.02,
-            high=5.0,
-            default=0.5,
-            meaning="Largest pressure that a point bears, over E* times the rms slope on the grid, "
-            "or with a unit, such as 2 GPa. Where it is reached, the surface is permanently "
-            "indented.",
-            unit="Pa",
-            state_scale=lambda state: float(state.E_star * state.rms_slope),
-            over="E* ∇h",
-        ),
-    )
+    controls = (DECLARED["hardness_bar"],)
     unlike = "without yield"
-    strip = (_UNLOADING, _PLASTIC, _INDENTATION)
+    strip = figures("unloading", "plastic", "indentation")
     series: ClassVar = {
         "stiffness": (
             marks("unloading", "3D, on unloading", "mark", marker="triangle", size=7, fill_alpha=0),
@@ -93,7 +61,7 @@ class YieldingPhysics(Physics):
 
     def hardness(self, state: ExploreState) -> float:
         """Hardness, the same on every grid. [Pa]"""
-        return self.hardness_bar * state.E_star * state.rms_slope
+        return self.in_si("hardness_bar", state)
 
     def law(self, state: ExploreState) -> rl.ContactLaw:
         """No more than the hardness."""
@@ -110,13 +78,15 @@ class YieldingPhysics(Physics):
         """Stiffness on unloading, share of the contact that yields, and indentation."""
         intervals, unloading = intervals_of_grid(pressed), float(pressed.unloading_stiffness[0])
         ends = first(intervals.unloading) if intervals else None
-        yield _UNLOADING.in_words(*stiffness_with_ends(unloading, ends, state))
+        yield FIGURES["unloading"].in_words(*stiffness_with_ends(unloading, ends, state))
         plastic, hardness = float(pressed.plastic_fraction[0]), self.hardness(state)
         in_unit = up_to_three_digits(hardness, None, "Pa")
-        yield _PLASTIC.in_words(f"{figure(100 * plastic)}%", f"H {in_unit}")
+        yield FIGURES["plastic"].in_words(f"{figure(100 * plastic)}%", f"H {in_unit}")
         indentation = float(pressed.indentation[0])
         in_unit = up_to_three_digits(indentation, None, "m")
-        yield _INDENTATION.in_words(f"{figure(indentation / pressed.rms_height)} h", in_unit)
+        yield FIGURES["indentation"].in_words(
+            f"{figure(indentation / pressed.rms_height)} h", in_unit
+        )
 
     def further(self, state: ExploreState, refines: bool, progress: Progress) -> PageAnswer:
         """Follow the way back from the load to none."""

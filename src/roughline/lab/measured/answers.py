@@ -123,7 +123,6 @@ def _body_header(result: Assessment) -> dict[str, Any]:
         "words": {"modulus": modulus},
         "tables": tables,
         "bars": {"answers": None if why is None else {**asdict(why), "header": why.header}},
-        "can_report": result.question.pair is not None and bool(result.question.loads),
     }
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 import roughline as rl
 from roughline.contact import scaling
 from roughline.lab.controls import ControlError, Texts, usable
-from roughline.lab.published.controls import MODELS, WINDOWS
+from roughline.lab.published.controls import MODELS, NUMBERS, WINDOWS
 from roughline.lab.published.state import PublishedState, read_state
 from roughline.lab.server.tasks import Arguments
 from roughline.paper.laws import dimension_law
@@ -39,7 +39,8 @@ def usable_state(arguments: Arguments) -> tuple[PublishedState, dict[str, Any]]:
         return state
 
     state, refused = usable(arguments, read, PublishedState.address)
-    return state, {"state": state.address(), "numbers": state.numbers, "refused": refused}
+    numbers = {key: state[key] for key in NUMBERS}
+    return state, {"state": state.address(), "numbers": numbers, "refused": refused}
 
 
 def ensemble(model: ModelLabel, fractal_dimension: float) -> xarray.Dataset:

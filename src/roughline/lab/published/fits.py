@@ -60,7 +60,8 @@ class _Fit:
 def fits(arguments: Arguments, progress: Progress) -> bytes:
     """The power laws of both models in their windows, with what the paper states beside them."""
     state, settled = usable_state(arguments)
-    every = {m: [_Fit.of(state, m, d) for d in state.dimensions] for m in MODELS}
+    dimensions = sorted(state["D_f"])
+    every = {m: [_Fit.of(state, m, d) for d in dimensions] for m in MODELS}
     panels = {"exponents": PanelContent()}
     answer: dict[str, Any] = {"windows": {}, "tables": {}, "words": {}, "strip": []}
     for model, found in every.items():
@@ -91,7 +92,7 @@ def fits(arguments: Arguments, progress: Progress) -> bytes:
         "header": ["D_f", *(f"α {model}" for model in MODELS), *_FORMULAS.values()],
         "rows": [
             [*one[:2], three[1], f"{scaling_exponent(d):.3f}", f"{linear_exponent(d):.3f}"]
-            for d, one, three in zip(state.dimensions, *rows, strict=True)
+            for d, one, three in zip(dimensions, *rows, strict=True)
         ],
     }
     return drawn({**settled, **answer}, panels, {})

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from roughline.lab.controls import VERSION, ControlError, Texts, refuse_strange
-from roughline.lab.published.controls import CONTROLS, NUMBERS, WINDOWS
+from roughline.lab.published.controls import CONTROLS, WINDOWS
 
 if TYPE_CHECKING:
     from roughline.paper.stated import ModelLabel
@@ -17,24 +15,8 @@ _DROPPED_KEYS = {"claims"}
 """What links of version 0.3 chose besides: which claims are listed, which the handbook does now."""
 
 
-@dataclass(frozen=True)
-class PublishedState:
+class PublishedState(dict[str, Any]):
     """What is chosen, by the keys of the controls, which say what each means."""
-
-    values: Mapping[str, Any]
-
-    def __getitem__(self, key: str) -> Any:
-        return self.values[key]
-
-    @property
-    def dimensions(self) -> tuple[float, ...]:
-        """Fractal dimensions that are shown, from the smallest on."""
-        return tuple(sorted(self["D_f"]))
-
-    @property
-    def numbers(self) -> dict[str, float]:
-        """The numbers among them."""
-        return {key: self[key] for key in NUMBERS}
 
     def address(self) -> dict[str, str]:
         """What the address says of this state: the version, and all that is chosen."""
