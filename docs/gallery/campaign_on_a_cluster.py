@@ -5,6 +5,7 @@ How are hundreds of surfaces pressed?
 A campaign presses ensembles on all cores, or on a Dask cluster. Its store survives kills, and can
 be enlarged without changing what is in it. This one has two workers; with a scheduler's address
 instead of ``workers`` it runs on a cluster. Workers are processes, so a script needs the guard.
+Single surfaces (grey) scatter by factors; the interval of the exponent of their mean holds that.
 """
 
 import tempfile

@@ -29,4 +29,6 @@ for base in (0.2, 5.0):
         axes.loglog(thicknesses, ratio, style, label=label)
 
 axes.set(xlabel="thickness / side", ylabel="over that of the coating alone")
+axes.set_yticks([0.6, 0.8, 1, 1.5, 2], labels=["0.6", "0.8", "1", "1.5", "2"])
+axes.set_yticks([], minor=True)
 axes.legend(fontsize="small")

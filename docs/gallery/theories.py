@@ -3,7 +3,9 @@ How far are the theories from the numbers?
 ==========================================
 
 Persson, Bush, Gibson and Thomas, and Greenwood and Williamson predict the contact area from the
-spectrum alone. They are compared with the full model of a periodic surface with the same spectrum.
+spectrum alone. Beside the full model of a periodic surface Persson's area is too small under light
+loads, of which Bush, Gibson and Thomas give the limit; summits that do not feel each other are too
+soft under heavier ones.
 """
 
 import numpy as np
@@ -19,11 +21,11 @@ curve = rl.press(surface, E_star=1.0, forces=pressure, periodic=True)
 figure, (left, right) = pyplot.subplots(1, 2, figsize=(8.4, 3.4), layout="constrained")
 left.loglog(pressure, curve.area_fraction_corrected, "ko", label="full model")
 right.loglog(pressure, curve.stiffness, "ko", label="full model")
-for name in ("persson", "bush-gibson-thomas", "greenwood-williamson"):
+for i, name in enumerate(("persson", "bush-gibson-thomas", "greenwood-williamson")):
     theory = rl.theory(name, surface, 1.0, pressure)
-    left.loglog(pressure, theory.area_fraction, label=theory.name)
+    left.loglog(pressure, theory.area_fraction, color=f"C{i}", label=theory.name)
     if theory.stiffness is not None:
-        right.loglog(pressure, theory.stiffness, label=theory.name)
+        right.loglog(pressure, theory.stiffness, color=f"C{i}")
 left.set(xlabel="pressure $p / E^*$", ylabel="contact area $A/A_0$", ylim=(3e-3, 1.5))
 right.set(xlabel="pressure $p / E^*$", ylabel="stiffness for each area $k L / E^*$")
 left.legend()

@@ -168,6 +168,19 @@ def test_a_joint_moves_as_far_and_is_as_much_stiffer_as_it_is_larger():
     assert ten["cycle_energy"].ends is None  # other places of the joint are not known
 
 
+def test_intervals_on_odd_sides_hold_what_twice_as_many_points_find():
+    spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=2e-7, q_roll=2.5e4, q_high=5e4)
+    fine = rl.Surface(spectrum.surface(66, rng=7).heights, (1e-3, 1e-3), "m")
+    coarse = fine.coarsened()
+    assert coarse.shape == (33, 33)
+    told = rl.assess(asked(coarse, grid_error=True)).answers
+    truth = rl.assess(asked(fine)).answers
+    for key in ("shear_displacement", "cycle_energy", "stiffness_before_slip"):
+        (low,), (high,), (value,) = told[key].low, told[key].high, truth[key].values
+        assert low <= value <= high, key
+        assert high < 2 * low, key
+
+
 def test_a_layer_of_what_lies_below_it_changes_nothing():
     """As far as layers know shear: repeated, that is as a joint."""
     stuff = rl.material("E=3 GPa nu=0.38")

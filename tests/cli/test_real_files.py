@@ -70,6 +70,17 @@ def test_files_that_cannot_be_used_say_why(topographies, invoke, name, told):
     assert len(errors.splitlines()) == 1
 
 
+@pytest.mark.parametrize(
+    "name", ["al3d-1.al3d", "di-1.di", "opd-1.opd", "dektak-1.csv", "mitutoyo_mock.xlsx"]
+)
+def test_each_warning_of_info_says_what_to_do(topographies, invoke, name):
+    told = invoke("info", topographies / name)[1].splitlines()
+    warnings = [line for line in told if line.startswith("warning: ")]
+    assert len(warnings) > 2
+    does = r"[:;] (unless grooves|several maps|a longer|fit|map|measure|press|scan) [^:;]+$"
+    assert [line for line in warnings if not re.search(does, line)] == []
+
+
 def test_info_describes_a_file_of_which_most_is_missing(topographies, invoke, tmp_path):
     """By SurfaceTopography itself: 233009 of 512 x 512, all but a band at 68 to 84 mm along y."""
     code, out, errors = invoke("info", topographies / "sur-3.sur", "--out", tmp_path)

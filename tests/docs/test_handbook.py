@@ -142,6 +142,13 @@ def test_an_example_is_short_and_asks_a_question(name):
     assert len(lines[2]) == len(title)
 
 
+@pytest.mark.parametrize(
+    "page", sorted((GALLERY.parent / "how-to").glob("*.md")), ids=lambda p: p.stem
+)
+def test_a_how_to_begins_with_what_one_gets(page):
+    assert page.read_text("utf-8").split("\n\n")[1].startswith("You get ")
+
+
 def test_a_release_fills_the_version_switch(tmp_path):
     for name in ("0.2.0", "0.10.0", "stable", ".git"):
         (tmp_path / name).mkdir()

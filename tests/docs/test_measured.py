@@ -284,25 +284,29 @@ def test_the_page_of_the_flow_quotes_its_table():
     assert f"{one:.1f} times at 1, {two:.1f} times at 2 and {rare:.1f} times at 20" in page
 
 
-def test_the_page_of_the_flow_quotes_how_often_its_intervals_hold():
-    page = said_on("flow")
-    table = rows_of("leak-coverage", "What flows through a part, from one map")
-    held = {(row["surfaces"], row["quantity"]): row["held"].rstrip("%") for row in table}
-    apertures = "hydraulic_aperture_x", "hydraulic_aperture_y"
-    of_all = sorted({held["all", name] for name in (*apertures, "mean_gap")})
-    assert f"{' or '.join(of_all)} of 100 intervals of the apertures" in page
-    kinds = {row["surfaces"] for row in table if not NUMBER.fullmatch(row["surfaces"])} - {"all"}
-    assert (f"of surfaces of {'eighteen' if len(kinds) == 18 else len(kinds)} kinds") in page
-    short = {each: int(part) for each, part in held.items() if part != "–" and int(part) < 90}
-    uneven = [part for (kind, _), part in short.items() if kind == "uneven roughness"]
-    assert f"varies over many maps ({min(uneven)} to {max(uneven)})" in page
-    rest = {each: part for each, part in short.items() if each[0] != "uneven roughness"}
-    honed = [rest.pop(("plateau-honed", name)) for name in ("mean_gap", "hydraulic_aperture_y")]
-    assert (
-        f"plateau-honed surfaces the mean gap ({honed[0]}) and the aperture along y ({honed[1]})"
-        in page
-    )
-    assert not rest
+@pytest.mark.parametrize(
+    ("part", "section", "quantities", "counted"),
+    [
+        (
+            "leak-coverage",
+            "What flows through a part, from one map",
+            ("hydraulic_aperture_x", "hydraulic_aperture_y", "mean_gap"),
+            "answers from one map",
+        ),
+        ("seal-coverage", "The seal behind one map", ("p_s",), "parts"),
+    ],
+)
+def test_the_page_of_the_counts_says_how_often_intervals_of_flow_and_seal_hold(
+    part, section, quantities, counted
+):
+    rows = [row for row in rows_of(part, section) if row["quantity"] in quantities]
+    rows = [row for row in rows if NUMBER.search(row["held"])]  # a dash where all are silent
+    of_all = [row for row in rows if row["surfaces"] == "all"]
+    held = sorted({f"{100 * number(row['held']):.0f}" for row in of_all})
+    short = {row["surfaces"] for row in rows if number(row["held"]) < 0.9}
+    begins = f"| {int(of_all[0]['intervals']):,} {counted} | {' to '.join(held)} % | "
+    told = said_on("intervals_hold").partition(begins)[2].partition(" |")[0]
+    assert {each.replace("two maps long", "of 2 maps") for each in told.split(", ")} == short
 
 
 def test_promises_are_kept_in_the_table_and_by_the_present_code(monkeypatch):
@@ -328,26 +332,6 @@ def test_the_page_of_averages_quotes_how_often_intervals_at_fixed_level_hold():
     assert pytest.approx(HELD_AT_LEVEL, abs=0.03) == held["level"]
     page = said_on("averaging")
     assert f"contain a known exponent in {HELD_AT_LEVEL:.0%} of samples of 40 bodies" in page
-
-
-def test_the_page_on_reading_intervals_quotes_how_often_those_of_measures_hold():
-    page = said_on("how-to/intervals")
-    gap, aperture = (
-        next(row for row in rows_of("intervals", "The grid") if row["quantity"] == name)
-        for name in ("u_m", "u_h")  # whose first row is that of all surfaces
-    )
-    assert gap["surfaces"] == aperture["surfaces"] == "all"
-    assert f"On {gap['intervals']} loads of maps of all kinds of made surfaces" in page
-    held = [row["held"].replace("%", " %") for row in (gap, aperture)]
-    assert f"hold {held[0]} of the mean gaps and {held[1]} of the apertures" in page
-
-
-def test_the_page_of_the_flow_quotes_how_often_the_intervals_of_the_seal_hold():
-    page = said_on("flow")
-    table = rows_of("seal-coverage", "The seal behind one map")
-    held = {(row["surfaces"], row["quantity"]): row["held"].rstrip("%") for row in table}
-    assert f"{held['all', 'p_s']} of 100 of its intervals hold that of the part" in page
-    assert f"{held['all', 'F_10/F']} of 100 those of the load that is left" in page
 
 
 def test_the_page_of_the_counts_begins_with_what_they_found():

@@ -10,7 +10,14 @@ import numpy as np
 
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.curve import SurfaceCurve
-from roughline.contact.grid_error import AS_STEEP, COARSER, STAGES, GridStudy, refuse_few_points
+from roughline.contact.grid_error import (
+    AS_STEEP,
+    COARSER,
+    STAGES,
+    GridStudy,
+    halved,
+    refuse_few_points,
+)
 from roughline.contact.pressing import Pressing
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.engineering.intervals import Ends, Intervals
@@ -72,10 +79,9 @@ class FinerGrid(Cause):
         """
         body, question = asked.body, case.question
         is_known = question.joint is None and not case.filled and not broken("grid", body)
-        is_even = not (body.shape[0] % 2 or body.shape[1] % 2)
-        if not (case.loads.grid_error and is_known and is_even) or question.coated:
+        if not (case.loads.grid_error and is_known) or question.coated:
             return None
-        return replace(asked, body=body.coarsened())
+        return replace(asked, body=halved(body))
 
     def spread(self, case: Case, curves: Curves, variant: str) -> Spread | None:
         """Both ends that finer grids leave open; None where their errors were not estimated."""

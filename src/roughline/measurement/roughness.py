@@ -121,7 +121,8 @@ def roughness(body: Body) -> Roughness:
     try:
         spectrum, law = fitted(body)
         fit = checked_fit(body, law)
-        remarks += fit.objections
+        remarks += fit.remarks
+        remarks += [f"{each}: press it as it is, which asks for no law" for each in fit.refusals]
     except InputError as error:
         remarks.append(str(error))
     ratio = isotropy(body) if isinstance(body, Surface) else None
