@@ -154,6 +154,47 @@ REMEMBER_STATUS = """() => {
 }"""
 
 
+SEEN = """new Promise((done) => addEventListener("drawn", () => {
+    const sketch = document.querySelector("#plot-explore-contact .sketch");
+    const {width, height} = sketch;
+    const {data} = sketch.getContext("2d").getImageData(0, 0, width, height);
+    const red = Array.from({length: width * height}, (_, i) => data[4 * i] - data[4 * i + 2] > 50);
+    done(Array.from({length: height}, (_, row) => red.slice(row * width, (row + 1) * width)));
+}, {once: true}))"""
+
+
+def test_the_contact_is_seen_before_plots_can_be_made(pages):
+    page, late = pages.blank(), []
+    page.route("**/bokeh.min.js", lambda route: late.append(route))
+    page.goto(pages.address + SMALL, wait_until="commit")
+    seen, numbers = page.evaluate(SEEN), strip(page)
+    assert late
+    late[0].continue_()
+    drawn(page, points=64)
+    assert page.locator(".sketch").count() == 0
+    np.testing.assert_array_equal(np.ravel(seen), np.equal(image(page, "contact"), 1))
+    assert {key: shown[0] for key, shown in strip(page).items()} == {
+        key: shown[0] for key, shown in numbers.items()
+    }
+
+
+def test_no_axis_is_painted_again_while_the_load_moves(fresh):
+    fresh.evaluate(
+        """() => {
+            const {PlotView} = Bokeh.require("models/plots/plot_canvas");
+            const paint = PlotView.prototype._paint_primary;
+            window.painted = [];
+            PlotView.prototype._paint_primary = function (...on) {
+                painted.push(this.model.name);
+                paint.apply(this, on);
+            };
+        }"""
+    )
+    typed(fresh, "F", "0.21")
+    settled(fresh, F=0.21)
+    assert fresh.evaluate("painted") == []
+
+
 def test_a_dragged_slider_is_followed_coarsely_and_sharpens_at_rest(fresh):
     fresh.check('#explore [data-key="n"][value="256"]')
     drawn(fresh, points=256)
