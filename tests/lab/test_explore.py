@@ -182,7 +182,7 @@ def test_the_answer_strip_says_what_the_library_says(curve, surface):
 
 
 def test_the_line_is_the_mean_of_lines_with_the_same_waves():
-    header, _ = answer(pictures.reduced, SMALL)
+    header, _ = answer(pictures.coarse, SMALL)
     spectrum = rl.SelfAffine(
         fractal_dimension=2.4,
         length=LENGTH,
@@ -195,7 +195,7 @@ def test_the_line_is_the_mean_of_lines_with_the_same_waves():
         force = 0.2 * E_STAR * line.rms_height * LENGTH
         pressed = rl.press(line, E_star=E_STAR, forces=[force])
         stiffness.append(pressed.stiffness[0] / (E_STAR * LENGTH))
-    assert header["stiffness_bar_1d"] == pytest.approx(np.mean(stiffness), rel=1e-12)
+    assert header["line"]["stiffness_bar_1d"] == pytest.approx(np.mean(stiffness), rel=1e-12)
 
 
 def test_the_curve_is_that_of_the_library(surface):
@@ -265,13 +265,13 @@ def test_numbers_may_have_units(said, name, value):
     ],
 )
 def test_what_is_typed_is_what_the_address_keeps(typed):
-    kept = answer(pictures.reduced, {**SMALL, **typed})[0]["state"]
+    kept = answer(pictures.coarse, {**SMALL, **typed})[0]["state"]
     assert kept.items() >= typed.items()
     assert read_state(kept) == read_state({**SMALL, **typed})
 
 
 def test_a_pressure_stays_that_pressure_when_a_link_is_opened_and_the_height_changes():
-    kept = answer(pictures.reduced, {**SMALL, "F": "2 MPa"})[0]["state"]
+    kept = answer(pictures.coarse, {**SMALL, "F": "2 MPa"})[0]["state"]
     lower = read_state({**kept, "h": "2 um"})
     assert lower.force(lower.F) == pytest.approx(2e6 * lower.length**2)
     assert pytest.approx(read_state(kept).F / 2) == lower.F
@@ -313,7 +313,7 @@ def test_what_cannot_be_used_is_refused_where_it_stands(said, at):
 
 def test_a_cutoff_that_the_grid_does_not_carry_is_told_at_its_control():
     def told(**state):
-        header, _ = answer(pictures.reduced, {"n": "64", **state})
+        header, _ = answer(pictures.coarse, {"n": "64", **state})
         return header["refused"], header["numbers"]["cutoff"]
 
     refused, used = told(cutoff="0.005")

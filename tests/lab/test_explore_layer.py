@@ -54,10 +54,10 @@ def test_a_layer_as_hard_as_its_base_is_no_layer():
 
 
 def test_the_reduced_model_says_that_it_knows_no_layer():
-    header, _ = answer(pictures.reduced, COATED)
+    header = answer(pictures.coarse, COATED)[0]["line"]
     assert "homogeneous base" in header["panels"]["stiffness"]["legends"]["line"]
     assert header["strip"][0]["below"] == "on the homogeneous base"
-    assert answer(pictures.reduced, SMALL)[0]["strip"][0]["below"] == ""
+    assert answer(pictures.coarse, SMALL)[0]["line"]["strip"][0]["below"] == ""
 
 
 def test_theories_of_one_material_are_not_drawn_and_say_why():

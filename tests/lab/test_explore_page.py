@@ -154,6 +154,49 @@ REMEMBER_STATUS = """() => {
 }"""
 
 
+SEEN = """() => {
+    const sketch = document.querySelector("#plot-explore-contact .sketch");
+    if (!sketch) return false;
+    const {width, height} = sketch;
+    const {data} = sketch.getContext("2d").getImageData(0, 0, width, height);
+    return Array.from({length: width * height}, (_, i) => data[4 * i] - data[4 * i + 2] > 50);
+}"""
+
+
+def test_the_contact_is_seen_before_plots_can_be_made(pages):
+    page, seen = pages.blank(), []
+
+    def look(route):
+        seen.extend(page.wait_for_function(SEEN).json_value())
+        seen.append(strip(page))
+        route.continue_()
+
+    page.route("**/bokeh.min.js", look)
+    page.goto(pages.address + SMALL)
+    drawn(page, points=64)
+    assert page.locator(".sketch").count() == 0
+    *cells, numbers = seen
+    np.testing.assert_array_equal(cells, np.equal(image(page, "contact"), 1))
+    assert numbers.keys() == strip(page).keys()
+
+
+def test_no_axis_is_painted_again_while_the_load_moves(fresh):
+    fresh.evaluate(
+        """() => {
+            const {PlotView} = Bokeh.require("models/plots/plot_canvas");
+            const paint = PlotView.prototype._paint_primary;
+            window.painted = [];
+            PlotView.prototype._paint_primary = function (...on) {
+                painted.push(this.model.name);
+                paint.apply(this, on);
+            };
+        }"""
+    )
+    typed(fresh, "F", "0.21")
+    settled(fresh, F=0.21)
+    assert fresh.evaluate("painted") == []
+
+
 def test_a_dragged_slider_is_followed_coarsely_and_sharpens_at_rest(fresh):
     fresh.check('#explore [data-key="n"][value="256"]')
     drawn(fresh, points=256)

@@ -36,7 +36,7 @@ def test_it_is_pressed_and_kept_in_the_address():
     assert header["state"]["times"] == "2"
     assert read_state(header["state"]) == read_state(said)
     assert "times" in [item["key"] for item in header["strip"]]
-    assert answer(pictures.reduced, said)[0]["strip"][0]["below"] == "on the harder body"
+    assert answer(pictures.coarse, said)[0]["line"]["strip"][0]["below"] == "on the harder body"
 
 
 @pytest.mark.usefixtures("_added")

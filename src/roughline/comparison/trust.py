@@ -144,8 +144,8 @@ class TrustMap:
         point = np.array([np.log(roll_off_ratio), fractal_dimension, np.log(force_bar)])
         inside = np.clip(point, [axis[0] for axis in grid], [axis[-1] for axis in grid])
         fields = (self.difference, self.low, self.high, self.scatter, self.resolved.astype(float))
-        value, low, high, scatter, resolved = (
-            float(interpn(grid, field, inside)[0]) for field in fields
+        value, low, high, scatter, resolved = map(
+            float, interpn(grid, np.stack(fields, axis=-1), inside)[0]
         )
         return Difference(value, low, high, scatter, resolved > 1 - 1e-9)
 

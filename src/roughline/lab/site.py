@@ -28,7 +28,6 @@ _PANELS = {"measured": MEASURED, "published": PUBLISHED}
 
 
 TASKS: Mapping[str, Place] = {
-    "explore.reduced": Place(tasks.explore, "reduced", is_quick=True),
     "explore.coarse": Place(tasks.explore, "coarse", is_quick=True),
     "explore.full": Place(tasks.explore, "full"),
     "explore.curve": Place(tasks.explore, "curve"),

@@ -24,7 +24,7 @@ def up() -> None:
         *({"hardness_bar": "0.5"}, {"fluid": "x"}, {"w": "1"}, {"t": "0.05"}, {"mu": "0.3"}),
     ):
         arguments = {"state": {"n": "64", **special}, "session": {}}
-        for task in (pictures.reduced, pictures.full):
+        for task in (pictures.coarse, pictures.full):
             task(arguments, lambda done, total: None)
     ducc0.misc.resize_thread_pool(1)
     gc.freeze()  # what is loaded stays shared with the processes that are forked

@@ -83,15 +83,20 @@ class Springs:
         ends = np.searchsorted(springs.separations, depths, side="left")
         return self._in_contact(bins, springs, ends)
 
-    def under_forces(self, forces: Real) -> _SpringsInContact:
-        """Springs in contact under each force."""
+    @cached_property
+    def _edge_forces(self) -> Real:
+        """Force at which each bin begins to touch. [force]"""
         from roughline.reduction.loops import fill_edge_forces  # here because numba loads slowly
 
         counts, sums = self._below
         edge_forces = np.empty(self._bin_count)
         per_length = self._bins_per_length or 1.0
         fill_edge_forces(counts, sums, per_length, self.spring_stiffness, edge_forces)
-        bins = np.searchsorted(edge_forces, forces, side="right") - 1
+        return edge_forces
+
+    def under_forces(self, forces: Real) -> _SpringsInContact:
+        """Springs in contact under each force."""
+        bins = np.searchsorted(self._edge_forces, forces, side="right") - 1
         springs = self._sorted(bins)
         touch_forces = springs.counts * springs.separations - springs.sums
         # where separations repeat these are equal, and rounding must not make them fall

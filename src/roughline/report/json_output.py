@@ -294,10 +294,17 @@ def _body_json(body: Body) -> dict[str, Any]:
     }
 
 
+_PLAIN = (str, int, bool, type(None))  # what JSON holds as it is; subclasses may mean more
+
+
 def plain(value: Any) -> Any:
     """Return a value as JSON can hold it; NaN and infinities become null."""
+    if type(value) in _PLAIN:
+        return value
     if isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, np.ndarray) and value.dtype.kind == "f" and np.isfinite(value).all():
+        return value.tolist()
     if isinstance(value, np.ndarray | np.generic):
         return plain(value.tolist())
     if isinstance(value, list | tuple):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 import warnings
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
@@ -34,6 +34,8 @@ from roughline.lab.panels import PanelContent, Points, span
 from roughline.lab.server.tasks import Arguments, Progress
 from roughline.margins.press import facts_on_press
 from roughline.question.loading import UNLOADING
+from roughline.reduction.springs import Springs
+from roughline.report.values import figure
 from roughline.theories.theory import ONE_MATERIAL_ONLY, why_not
 
 _COARSE_POINTS = 128  # along a side while a slider moves
@@ -49,28 +51,8 @@ _LEAST_AXIS_RANGES = {"stiffness": (1e-3, 2.5), "area": (1e-4, 1.0)}
 _LINE_FORCES = np.geomspace(1e-4, 10, 41)
 
 
-def reduced(arguments: Arguments, progress: Progress) -> bytes:
-    """Mean stiffness of lines over force, and at the load of the state."""
-    state, refused = usable_state(arguments)
-    forces = np.unique([*_LINE_FORCES, state.F])
-    lines = _lines(state.spectrum(state.n), state.n, state.seed)
-    stiffness = np.array([_press_bar(each, state, forces) for each in lines])
-    mean = stiffness.mean(axis=0)  # without its interval, which would take as long as all lines
-    here = float(mean[np.searchsorted(forces, state.F)])
-    rows = [[*row, "1D"] for row in number_rows(forces, mean)]
-    points = {"x": forces, "y": mean, "low": stiffness.min(axis=0), "high": stiffness.max(axis=0)}
-    without = unlike(state)
-    legend = f"1D {without}, mean and range" if without else "1D, mean and range of lines"
-    content = {
-        "panels": {"stiffness": PanelContent({"line": points}, rows, legends={"line": legend})},
-        "stiffness_bar_1d": here,
-        "strip": [line_words(state, here)],
-    }
-    return _message(state, refused, content)
-
-
 def coarse(arguments: Arguments, progress: Progress) -> bytes:
-    """The contact on a coarse grid, while a slider moves."""
+    """The contact on a coarse grid while a slider moves, and lines with the same waves."""
     return _contact(arguments, progress, is_coarse=True)
 
 
@@ -147,6 +129,7 @@ def _contact(arguments: Arguments, progress: Progress, *, is_coarse: bool) -> by
     if not is_coarse:
         panels["spectrum"] = _spectrum(surface, state)
     content = {
+        **({"line": _line(state)} if is_coarse else {}),
         "points": n,
         "is_coarse": is_coarse,
         "heights": digest((state.spectrum(n), n, state.seed)),
@@ -224,17 +207,57 @@ def _message(
     return drawn(header, content.get("panels", {}), maps, above, ["height"] * is_held)
 
 
+def _line(state: ExploreState) -> dict[str, Any]:
+    """Mean stiffness of lines over force, and at the load of the state."""
+    spectrum, without = state.spectrum(state.n), unlike(state)
+    lines = _lines(spectrum, state.n, state.seed)
+    here = float(np.mean([each.stiffness_bars(np.array([state.F]))[0] for each in lines]))
+    points, rows = _line_curve(spectrum, state.n, state.seed)
+    if state.F not in _LINE_FORCES:
+        at, load = np.searchsorted(_LINE_FORCES, state.F), [figure(state.F), figure(here), "1D"]
+        rows = [*rows[:at], load, *rows[at:]]
+    legend = f"1D {without}, mean and range" if without else "1D, mean and range of lines"
+    panel = PanelContent({"line": points}, rows, legends={"line": legend})
+    words = [line_words(state, here)]
+    return {"panels": {"stiffness": vars(panel)}, "stiffness_bar_1d": here, "strip": words}
+
+
 @lru_cache(maxsize=2)
-def _lines(spectrum: rl.SelfAffine, n: int, seed: int) -> tuple[rl.Line, ...]:
-    """Lines of a spectrum, with the waves of a surface on n points along a side. [m]"""
-    springs = max(_FEWEST_SPRINGS, _SPRINGS_PER_POINT * n)
-    return tuple(spectrum.line(springs, seed + i) for i in range(LINES))
+def _line_curve(spectrum: rl.SelfAffine, n: int, seed: int) -> tuple[Points, list[list[str]]]:
+    """The curve of lines as it is drawn, and the rows of its table; no load moves it."""
+    stiffness = np.array([each.stiffness_bars(_LINE_FORCES) for each in _lines(spectrum, n, seed)])
+    mean = stiffness.mean(axis=0)  # without its interval, which would take as long as all lines
+    ends = {"low": stiffness.min(axis=0), "high": stiffness.max(axis=0)}
+    rows = [[*row, "1D"] for row in number_rows(_LINE_FORCES, mean)]
+    return {"x": _LINE_FORCES, "y": mean, **ends}, rows
 
 
-def _press_bar(line: rl.Line, state: ExploreState, force_bars: NDArray[np.float64]) -> Any:
-    """Stiffness k / (E* L) of a line under forces that are scaled with its own rms height."""
-    scale = state.E_star * line.rms_height * line.length
-    return rl.press(line, E_star=state.E_star, forces=force_bars * scale).stiffness_bar
+@dataclass(frozen=True)
+class _ScaledSprings:
+    """A reduced line on springs under E* = 1, which dimensionless numbers do not know."""
+
+    springs: Springs
+    unit_force: float  # h L, of F̄ = 1
+    length: float
+
+    def stiffness_bars(self, force_bars: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Stiffness k / (E* L) under dimensionless forces, scaled with its own rms height."""
+        return self.springs.under_forces(force_bars * self.unit_force).stiffness / self.length
+
+
+@lru_cache(maxsize=2)
+def _lines(spectrum: rl.SelfAffine, n: int, seed: int) -> tuple[_ScaledSprings, ...]:
+    """Lines of a spectrum, with the waves of a surface on n points along a side."""
+    points = max(_FEWEST_SPRINGS, _SPRINGS_PER_POINT * n)
+    lines = (spectrum.line(points, seed + i) for i in range(LINES))
+    return tuple(
+        _ScaledSprings(
+            Springs.under(each.heights, each.spacing, 1.0),
+            each.rms_height * each.length,
+            each.length,
+        )
+        for each in lines
+    )
 
 
 def _spectrum(surface: rl.Surface, state: ExploreState) -> PanelContent:

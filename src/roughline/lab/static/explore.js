@@ -5,7 +5,7 @@ import {Controls} from "./controls.js";
 import {element} from "./elements.js";
 import {onDraw} from "./hands.js";
 import {settle} from "./link.js";
-import {Maps, layersOf, mapFigure, onRelief, profileFigure, sharedRanges} from "./maps.js";
+import {Maps, layersOf, mapFigure, onRelief, profileFigure, sharedRanges, sketchOf} from "./maps.js";
 import {panelsOf} from "./panels.js";
 import {pictureOf, save} from "./saving.js";
 import {fillCaption, fillFigures, fillList, fillTable} from "./tables.js";
@@ -14,6 +14,7 @@ import {Waiting} from "./waiting.js";
 
 const REST = 250; // without a move, until the full grid is computed [ms]
 const MAP = "explore-contact", NOT_ASKED = ["white"]; // how the area is drawn, which is always there
+const SKETCHED = 500; // until plots are made, if no answer has come to be sketched before [ms]
 const SURFACES = 4; // whose heights are held
 const LEFT = {full: "the coarse answer is shown", download: "nothing was saved"}; // what a cancel of these leaves
 const LEFT_BY_OTHERS = "curves belong to the contact before";
@@ -52,6 +53,7 @@ export default class Explore {
     this.#stale = new Set(this.#finer);
     this.#dim(["contact", ...this.#stale]);
     this.#askNow();
+    await Promise.race([this.#sketched, new Promise((resolve) => { setTimeout(resolve, SKETCHED); })]);
     this.#panels = await panelsOf(this.#root, maps);
     this.#plots = this.#panels.plots;
     for (const {key, cursor, drags} of this.#cursors) {
@@ -164,12 +166,34 @@ export default class Explore {
 
   #askNow() {
     const turn = ++this.#turn, args = this.#controls.asked;
-    const error = (sentence, at) => this.#refuse(sentence, at, turn);
-    this.#link.ask("explore.reduced", "reduced", args, {
-      answer: (header) => this.#draw(() => this.#drawLine(header, args, turn)), error,
-    });
     this.#link.ask("explore.coarse", "coarse", {...args, heights: this.#held}, {
-      answer: (header) => { this.#hold(header); this.#draw(() => this.#drawContact(header, args, turn)); }, error});
+      answer: (header) => {
+        this.#hold(header);
+        if (!this.#plots) this.#sketch(header);
+        this.#draw(() => this.#drawContact(header, args, turn));
+      },
+      error: (sentence, at) => { this.#tellSketched(); this.#refuse(sentence, at, turn); },
+    });
+  }
+
+  #tellSketched;
+  #sketched = new Promise((resolve) => { this.#tellSketched = resolve; }); // the browser then has time to load what makes plots
+
+  // Show an answer before there are plots, whose picture takes the place of the sketch.
+  #sketch(header) {
+    const {arrays: {height, area}, maps, points, numbers} = header;
+    this.#show("contact", header);
+    const place = this.#find(`#plot-${MAP}`);
+    if (area) {
+      place.querySelector(".sketch")?.remove();
+      place.append(sketchOf(height, area, maps.area.palette));
+      this.#find(`#${MAP}`).classList.remove("empty");
+    }
+    requestAnimationFrame(() => setTimeout(() => { // after this frame
+      if (area) place.dispatchEvent(new CustomEvent("drawn", {detail: {what: "contact", points, numbers}, bubbles: true}));
+      place.addEventListener("drawn", () => place.querySelector(".sketch")?.remove(), {once: true});
+      this.#tellSketched();
+    }));
   }
 
   #heights = new Map(); // those that came last, of a coarse and of a fine grid, by the keys of their surfaces
@@ -213,17 +237,13 @@ export default class Explore {
     });
   }
 
-  #drawLine(header, asked, turn) {
-    this.#settled(header, asked, turn);
-    this.#show("line", header);
-    this.#compare();
-  }
-
   #drawContact(header, asked, turn) {
+    const {line, state, numbers: own} = header;
+    if (line) this.#show("line", {...line, state, numbers: own});
+    this.#settled(header, asked, turn);
     if (header.is_coarse && this.#last && !this.#last.is_coarse && sameState(this.#last.state, header.state)) return;
     const counted = Object.entries(asked.state).filter(([key]) => !(key in header.refused));
     this.#last = {...header, texts: Object.fromEntries(counted)};
-    this.#settled(header, asked, turn);
     const {strip, points: n, numbers} = header;
     this.#plots.shows(MAP, {what: "contact", points: n, numbers});
     this.#show("contact", header);
@@ -276,9 +296,8 @@ export default class Explore {
   #show(what, header) {
     this.#answers.delete(what);
     this.#answers.set(what, header); // those that came last are at the end
-    if (!this.#panels) return;
-    this.#panels.show(what, header.panels ?? {}, header.numbers);
     fillFigures(this.#find(".strip"), this.#shownFigures);
+    this.#panels?.show(what, header.panels ?? {}, header.numbers);
   }
 
   get #shownFigures() {

@@ -62,8 +62,8 @@ const legends = new WeakMap();
 export function legendOf(plot) { return legends.get(plot) ?? []; }
 
 // Let a plot draw the columns of a source, which several glyphs may share, and name it. What has the level "overlay" has a
-// canvas of its own above the others, and these are not painted again when it moves.
-export function draw(plot, kind, source_name, {colours = {}, legend, level = "glyph", ...look} = {}) {
+// canvas of its own above the axes, which are not painted again when it moves.
+export function draw(plot, kind, source_name, {colours = {}, legend, level = "overlay", ...look} = {}) {
   const fields = Object.fromEntries(Object.entries(COLUMNS[kind]).map(([key, field]) => [key, {field}]));
   if (look.line_dash in DASHES) look.line_dash = {value: DASHES[look.line_dash]};
   const source = plot.renderers.find(({data_source}) => data_source.name === source_name)?.data_source

@@ -33,8 +33,8 @@ function tell(...words) {
   if (connection.textContent !== said) connection.textContent = said; // else a screen reader would say it again
 }
 
-const RARE = 300; // between two changes of the address; browsers stop pages that change it more often [ms]
-let later = null, written = 0;
+const REST = 300; // without a change, until the address is written; browsers stop pages that write it often [ms]
+let later = null;
 
 // The state of a view in the address of the page.
 const address = {
@@ -45,10 +45,7 @@ const address = {
   },
   write(view, said) {
     clearTimeout(later);
-    later = setTimeout(() => {
-      written = performance.now();
-      history.replaceState(null, "", `?${new URLSearchParams({view, ...said})}`);
-    }, Math.max(0, written + RARE - performance.now()));
+    later = setTimeout(() => history.replaceState(null, "", `?${new URLSearchParams({view, ...said})}`), REST);
   },
 };
 

@@ -29,19 +29,18 @@ export function mapFigure(name, {hasRelief = false, rings = "", ranges}) {
   const made = plot(["x", "y"], ranges, {match_aspect: true, ...borders});
   const mapper = new Bokeh.LinearColorMapper({palette: Bokeh.Palettes.Cividis256, low: -1, high: 1, name: `${name} colours`});
   if (hasRelief) {
-    draw(made, "image_rgba", `${name} relief`);
+    draw(made, "image_rgba", `${name} relief`, {level: "glyph"}); // it stays while a load moves
     made.xaxes[0].visible = false;
   }
-  const level = hasRelief ? "overlay" : "glyph"; // the relief stays while a load moves
-  draw(made, "image", name, {color_mapper: mapper, level});
+  draw(made, "image", name, {color_mapper: mapper});
   for (const grid of made.grids) grid.visible = false;
   if (rings) {
     for (const [line_width, shown] of [[4, "paper"], [1.5, rings]]) { // the one is seen around the other
-      draw(made, "scatter", `${name} rings`, {size: 22, line_width, fill_alpha: 0, level, colours: {line_color: shown}});
+      draw(made, "scatter", `${name} rings`, {size: 22, line_width, fill_alpha: 0, colours: {line_color: shown}});
     }
   }
   for (const [line_width, shown] of [[3, "paper"], [1.2, "text"]]) {
-    draw(made, "line", `${name} cut`, {line_width, level: "overlay", colours: {line_color: shown}});
+    draw(made, "line", `${name} cut`, {line_width, colours: {line_color: shown}});
   }
   return made;
 }
@@ -53,12 +52,11 @@ export function sharedRanges() { return [1, 2].map(() => new Bokeh.Range1d({star
 export function profileFigure() {
   const sides = Object.fromEntries(["left", "right"].map((side) => [`min_border_${side}`, BORDERS[side]])); // below its map
   const made = plot(["along the line", "height"], [[0, 1], [0, 1]], sides);
-  const level = "overlay"; // of what moves with the load
   draw(made, "varea", "profile surface", {fill_alpha: 0.4, colours: {fill_color: "line"}});
   draw(made, "line", "profile surface", {line_width: 1, colours: {line_color: "line"}});
-  draw(made, "varea", "profile gap", {fill_alpha: 0.3, level, colours: {fill_color: "pull"}});
-  draw(made, "line", "profile body", {line_width: 1.5, level, colours: {line_color: "text"}});
-  draw(made, "line", "profile touching", {line_width: 4, level, colours: {line_color: "touch"}});
+  draw(made, "varea", "profile gap", {fill_alpha: 0.3, colours: {fill_color: "pull"}});
+  draw(made, "line", "profile body", {line_width: 1.5, colours: {line_color: "text"}});
+  draw(made, "line", "profile touching", {line_width: 4, colours: {line_color: "touch"}});
   return made;
 }
 
@@ -281,6 +279,18 @@ export function reliefOf({values, shape: [rows, columns]}, [width, height]) {
   }
   return shown;
 }
+
+// The contact on the relief of its heights, as it is seen before plots can be drawn.
+export function sketchOf(height, {values}, palette) {
+  const points = reliefOf(height, [1, 1]), [rows, columns] = height.shape, made = element("canvas", {className: "sketch", width: columns, height: rows});
+  const marks = palette.map((name) => (name === "paper" ? 0 : bytesOf(colour(ON_RELIEF[name] ?? name))));
+  values.forEach((mark, i) => { points[i] = marks[mark] || points[i]; });
+  made.getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(points.buffer), columns, rows), 0, 0);
+  return made;
+}
+
+// A colour such as #b93a00 as one number, whose least byte is red.
+function bytesOf(shown) { return 0xff000000 + Number(`0x${shown.match(/[\da-f]{2}/gi).reverse().join("")}`); }
 
 // The ends of an axis about values.
 function endsAbout(values) {

@@ -6,7 +6,6 @@ import {fillTable} from "./tables.js";
 
 const FILLED = ["scatter", "varea"]; // glyphs that have an inside
 const FOOT = 0.04; // of a logarithmic axis: how far above its end zeros stand
-const OF_LOAD = "here"; // the series that moves with the load, as its cursor does
 const SLOPE = 0.6; // of the names of places [rad]
 
 // Embed the panels that the page of a view has, and its other figures, which may change those of the panels.
@@ -26,7 +25,7 @@ function figureOf({key, x, y, ranges, series, is_logarithmic: isLogarithmic, of_
       if (kind === "whisker") { drawIntervals(made, `${key} ${name}`, edge || colour, look.size); continue; }
       const fill = FILLED.includes(kind) ? {fill_color: colour} : {};
       const line = kind === "varea" ? {} : {line_color: edge || colour};
-      draw(made, kind, `${key} ${name}`, {legend, ...look, level: name === OF_LOAD ? "overlay" : "glyph", colours: {...fill, ...line}});
+      draw(made, kind, `${key} ${name}`, {legend, ...look, colours: {...fill, ...line}});
     }
   }
   const line = {dimension: "width", location: 0, line_width: 1, colours: {line_color: "line"}};

@@ -7,17 +7,22 @@ const TYPE = "12px"; // of all words in pictures
 const BESIDE = 6, STEP = 8, MOST = 40; // of names from curves and edges, and of curves that names should not cover [px]; at most
 const CROWDED = 10, WORSE = 1000; // another end there, and to cover another name, in steps of a curve that are covered
 const documents = [], recoloured = [];
-// BokehJS is loaded beside the page, which asks its first questions meanwhile.
-const bokeh = Promise.all(["bokeh.min.js", "bokeh-api.min.js"].map((name) => new Promise((resolve) => {
-  const script = element("script", {src: `bokeh/${name}`, async: false}); // the second needs the first
-  script.addEventListener("load", resolve);
-  document.head.append(script);
-})));
+let bokeh = null; // once it is asked for
+
+// Load BokehJS, whose megabyte keeps the browser and the server busy for a while.
+function loaded() {
+  bokeh ??= Promise.all(["bokeh.min.js", "bokeh-api.min.js"].map((name) => new Promise((resolve) => {
+    const script = element("script", {src: `bokeh/${name}`, async: false}); // the second needs the first
+    script.addEventListener("load", resolve);
+    document.head.append(script);
+  }))).then(spareStyles);
+  return bokeh;
+}
 
 // Embed the figures that are declared, by the elements that they belong to, less "plot-"; returns what changes them.
 // They are in one document, so that they may share ranges.
 export async function embedded(declared) {
-  await bokeh.then(spareStyles);
+  await loaded();
   const made = new Bokeh.Document(), figures = Object.entries(declared());
   for (const [name, figure] of figures) {
     figure.name = name;
@@ -32,20 +37,42 @@ export async function embedded(declared) {
 
 // With each picture Bokeh writes the places of all that it draws into the style of the page and asks that for colours,
 // hundreds of times a second while a slider moves, and each time the browser styles the page anew. A place that is the
-// same is not written, that of a glyph is not asked for, the page has no such colours, and all type is of one size. It also gives the points of each glyph to
-// four copies, for what is selected, passed or muted, which nothing is here.
+// same is not written, that of a glyph is not asked for, the page has no such colours, and all type is of one size. It
+// also keeps four copies of each glyph, for what is selected, passed, muted or too much, which nothing is here; looks for
+// points outside the frame, which clips them; and measures all axes, which no glyph moves.
 function spareStyles() {
   const {InlineStyleSheet} = Bokeh.require("core/dom"), {VisualProperties} = Bokeh.require("core/visuals/visual");
-  const {GlyphRendererView} = Bokeh.require("models/renderers/glyph_renderer");
-  const {PlotView} = Bokeh.require("models/plots/plot_canvas");
+  const {GlyphRendererView} = Bokeh.require("models/renderers/glyph_renderer"), {build_view} = Bokeh.require("core/build_views");
+  const {PlotView} = Bokeh.require("models/plots/plot_canvas"), {DataRendererView} = Bokeh.require("models/renderers/data_renderer");
   InlineStyleSheet.prototype._update = function (css) { if (this.css !== css) this.el.textContent = css; };
   VisualProperties.prototype._get_css_value = () => "";
-  GlyphRendererView.prototype.update_position = () => {};
   Object.defineProperty(PlotView.prototype, "base_font_size", {value: parseFloat(TYPE)});
-  const give = GlyphRendererView.prototype.set_data;
-  GlyphRendererView.prototype.set_data = async function (indices) {
-    await give.call(this, indices); // once they are given none
-    for (const each of [this.decimated_glyph, this.selection_glyph, this.nonselection_glyph, this.muted_glyph]) each.set_data = async () => {};
+  Object.defineProperty(GlyphRendererView.prototype, "needs_clip", {value: true}); // which overlays else have not
+  Object.assign(GlyphRendererView.prototype, {
+    update_position() {},
+    async lazy_initialize() {
+      await DataRendererView.prototype.lazy_initialize.call(this);
+      this.cds_view = await build_view(this.model.view, {parent: this});
+      this.glyph = await this.build_glyph_view(this.model.glyph);
+      this.selection_glyph = this.nonselection_glyph = this.muted_glyph = this.decimated_glyph = this.glyph;
+      await this.set_data();
+    },
+    async set_data() {
+      const {glyph, model: {data_source: source, view: {indices}}} = this;
+      this.all_indices = indices;
+      await glyph.set_data(source, indices);
+      glyph.set_visuals(source, indices);
+      glyph.after_visuals();
+    },
+    _paint(ctx) {
+      this.glyph.map_data();
+      this.glyph.paint(ctx, this.all_indices.ones());
+    },
+  });
+  const fit = PlotView.prototype._invalidate_layout_if_needed;
+  PlotView.prototype._invalidate_layout_if_needed = function () {
+    const isAxis = (view) => !(view instanceof GlyphRendererView) && view.model.level !== "overlay";
+    if (this._needs_layout || this._invalidate_all || [...this._invalidated_painters].some(isAxis)) fit.call(this);
   };
 }
 

@@ -1,24 +1,19 @@
 // Numbers and words beside the plots: tables, lists, large figures, and what the colours of a map mean.
 import {element, typeset} from "./elements.js";
 
-const RARE = 500; // between two fillings of a table in a fold that is closed, as sliders move [ms]
-const filled = new Map(), later = new Map(); // when tables were filled, and what fills them soon
+const REST = 500; // without other rows, until a table in a fold that is closed is filled, as sliders move [ms]
+const later = new Map(); // what will fill them
 
 // Put rows below a plot; a cell is a text, or pieces of one. They stand behind the headlines of their groups, which are
 // given with the number of rows of each; those of the first are shown. Rows that begin with `quiet` are beside those
 // above them.
 export function fillTable(id, header, rows, groups = null, quiet = null) {
   const place = document.querySelector(`[data-table="${id}"]`), fold = place.closest("details:not(.step)");
-  const fill = () => {
-    later.delete(id);
-    filled.set(id, performance.now());
-    place.replaceChildren(tableOf(header, rows, groups, quiet));
-  };
-  const isSoon = fold && !fold.open && performance.now() < (filled.get(id) ?? -RARE) + RARE;
-  if (!isSoon) { fill(); return; }
-  if (!later.has(id)) setTimeout(() => later.get(id)?.(), RARE);
-  fold.ontoggle = () => { if (fold.open) later.get(id)?.(); };
-  later.set(id, fill);
+  const fill = () => place.replaceChildren(tableOf(header, rows, groups, quiet));
+  clearTimeout(later.get(id));
+  if (!fold || fold.open || !place.children.length) { fill(); return; }
+  later.set(id, setTimeout(fill, REST));
+  fold.ontoggle = () => { if (fold.open) fill(); };
 }
 
 function tableOf(header, rows, groups, quiet) {
@@ -68,15 +63,19 @@ export function fillGroups(place, groups) {
 
 // The answers that lead, in large figures, each with what stands below; those that are the same stay as they are.
 export function fillFigures(place, figures) {
-  const before = Object.fromEntries([...place.children].map((item) => [item.dataset.said, item]));
-  const items = figures.map(({key = "", symbol, value, below, meaning: title = ""}) => {
-    const said = JSON.stringify([key, symbol, value, below, title]);
-    const item = before[said] ?? element("div", {title}, element("dt", {}, ...typeset(symbol)),
-      element("dd", {}, element("span", {}, ...typeset(value)), element("small", {}, ...typeset(below))));
-    Object.assign(item.dataset, {answer: key, said});
-    return item;
-  });
-  if (String(items.map(({dataset}) => dataset.said)) !== String(Object.keys(before))) place.replaceChildren(...items);
+  while (place.children.length > figures.length) place.lastElementChild.remove();
+  for (const [i, {key = "", symbol, value, below, meaning: title = ""}] of figures.entries()) {
+    if (!place.children[i]) place.append(element("div", {}, element("dt"), element("dd", {}, element("span"), element("small"))));
+    const item = place.children[i];
+    if (item.title !== title) item.title = title;
+    if (item.dataset.answer !== key) item.dataset.answer = key;
+    for (const [part, said] of Object.entries({dt: symbol, span: value, small: below})) {
+      const piece = item.querySelector(part);
+      if (piece.dataset.said === said) continue;
+      piece.dataset.said = said;
+      piece.replaceChildren(...typeset(said));
+    }
+  }
 }
 
 // Why answers are not known better: below the whole interval of each a bar for each cause, all on one axis; a fold that is
