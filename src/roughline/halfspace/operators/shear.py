@@ -404,9 +404,7 @@ def _weigh_pressure(columns: Floats, towards_x: Real, towards_y: Real) -> None:
         quarter = min(i, opposite)
         sign = 1.0 if i == quarter else -1.0
         for j in range(columns.shape[2]):
-            weight = 1j * (
-                sign * towards_x[quarter, j] + 1j * towards_y[quarter, j]
-            )
+            weight = 1j * (sign * towards_x[quarter, j] + 1j * towards_y[quarter, j])
             columns[0, i, j] *= weight
             columns[1, opposite, j] *= -weight
 
