@@ -358,7 +358,7 @@ def _load(
 ) -> None:
     """Copy a block of modes and their opposites to columns; rows go to their places.
 
-    With `odd` one, mode j stands for the wavenumber 2 j + 1, so that period - 1 - j is its opposite.
+    With `odd` one, mode j stands for the wavenumber 2 j + 1, and period - 1 - j is its opposite.
     """
     for row in range(places.size):
         for j in range(columns.shape[2]):
