@@ -204,9 +204,7 @@ class SlidePath:
                 return _unknown(contact, contact.outcome)
             if not contact.nodes.size:
                 return _apart(replace(contact, problem=problem), shear, last)
-            solved = step
-            step = _SlideStep(self._bodies, contact, last, (found, before), aim)
-            step.go_on_from(solved)
+            step = _SlideStep(self._bodies, contact, last, (found, before, step), aim)
             found = step.under(shear)
             convolutions += step.convolutions
             if found.outcome is not Outcome.CONVERGED:
@@ -296,13 +294,13 @@ class _SlideStep:
         bodies: _Bodies,
         contact: Contact,
         last: Slid | None,
-        again: tuple[Slid | None, Real | None] = (None, None),
+        again: tuple[Slid | None, Real | None, _SlideStep | None] = (None, None, None),
         rtol: float | None = None,
     ) -> None:
         """Take the bodies, the contact, and the last state.
 
-        If it is solved again, there is the state under nearly these pressures, and how the last
-        state displaces all of the grid.
+        If it is solved again, there is the state under nearly these pressures, how the last state
+        displaces all of the grid, and the step as it was solved before.
         """
         grid, exact = bodies.problem.grid, bodies.exact
         self._exact, self._contact, self._last = exact, contact, last
@@ -320,6 +318,8 @@ class _SlideStep:
         self._nearly, (self._moved_before, self._start) = again[0], self._before(again[1])
         if self._nearly is not None:
             self._start = self._on_these_discs(self._nearly)
+        if again[2] is not None and np.array_equal(again[2]._contact.nodes, contact.nodes):
+            self._known = again[2]._known
         gap, own = self._gaps_before(), bodies.diagonal * contact.pressure + self._dented()
         self._springs = gap / own * exact.diagonal
         self._since_contact = own / (gap + own)
@@ -379,11 +379,6 @@ class _SlideStep:
         before = self._untouched if self._last is None else self._last.contact
         change: Real = self._contact.separation - before.separation
         return change.ravel()[self._contact.nodes]
-
-    def go_on_from(self, solved: _SlideStep | None) -> None:
-        """Take the displacement by the shear that was solved for before, if on the same nodes."""
-        if solved is not None and np.array_equal(solved._nodes.indices, self._nodes.indices):
-            self._known = solved._known
 
     def under(self, load: ShearLoad) -> Slid:
         """Return the state under a load along the surface."""

@@ -101,7 +101,7 @@ class ShearConvolution:
         spectra = self.mean, self.part, self.skew, *self.towards, normal
 
         def weigh(modes: slice, sheared: Floats, pressed: Floats) -> None:
-            _weigh_both(sheared, pressed, *(each[:, modes] for each in spectra))
+            _weigh_both(sheared, pressed, tuple(each[:, modes] for each in spectra))
 
         values = shear, np.stack([pressure, np.zeros_like(pressure)], axis=1)
         moved, into = self._transformed(values, sources, targets, "float64", weigh)
@@ -428,14 +428,10 @@ def _weigh_into_body(columns: Floats, towards_x: Real, towards_y: Real) -> None:
 def _weigh_both(
     sheared: Floats,
     pressed: Floats,
-    mean: Real,
-    part: Real,
-    skew: Real,
-    towards_x: Real,
-    towards_y: Real,
-    normal: Real,
+    spectra: tuple[Real, ...],
 ) -> None:
     """Replace shear and pressure of pairs of opposite waves by what both displace."""
+    mean, part, skew, towards_x, towards_y, normal = spectra
     period = sheared.shape[1]
     for i in range(period):
         opposite = (period - i) % period
