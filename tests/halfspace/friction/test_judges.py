@@ -362,6 +362,8 @@ def test_tangents_of_two_materials_are_those_of_small_steps(angle, beta):
     tangent = (curve.shear_stiffness if angle < 90 else curve.shear_stiffness_back)[2]
     change = curve.shear_force[3] - curve.shear_force[2]
     assert change == pytest.approx(tangent @ way, abs=3e-3 * small * tangent[0, 0])
+    back = curve.shear_stiffness_back  # Betti: where all sticks each way answers the other alike
+    assert back == pytest.approx(back.transpose(0, 2, 1), abs=1e-12 * tangent[0, 0])
 
 
 @pytest.mark.parametrize("beta", [0.0, 2 / 7])

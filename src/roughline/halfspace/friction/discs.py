@@ -26,7 +26,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughline.computing.arrays import Mask, Real
-from roughline.halfspace.friction.vectors import followed, inner, largest_excess
+from roughline.halfspace.friction.vectors import followed, inner, largest_excess, within
 
 _MOST_ROUNDS = 60
 _MOST_STEPS = 300  # of conjugate gradients in a round
@@ -61,18 +61,10 @@ class Discs:
     diagonal: float  # m, displacement of a node by shear on itself [length / pressure]
     springs: Real  # shape (nodes,): of each node beside the half-space [length / pressure]
 
-    def within(self, shear: Real) -> Real:
-        """Project shear onto the discs."""
-        size = np.hypot(shear[:, 0], shear[:, 1])
-        over = size > self.bound
-        inside = shear.copy()
-        inside[over] *= (self.bound[over] / size[over])[:, np.newaxis]
-        return inside
-
     def judged(self, shear: Real, level: Real, displacement: Real) -> Sheared:
         """Return shear with its slip, and how far both are from the conditions."""
         slip = self.target + level - displacement - self.springs[:, np.newaxis] * shear
-        off = shear - self.within(shear + slip / self.diagonal)
+        off = shear - within(shear + slip / self.diagonal, self.bound)
         residual = self.diagonal * float(np.hypot(off[:, 0], off[:, 1]).max(initial=0.0))
         missing = 0.0
         if self.total is not None:
@@ -112,7 +104,7 @@ class DiscSearch:
         It is within the tolerance [length], and its total within a share of the sum of all bounds,
         or within that part of what the start leaves of each; or it is the best that was found.
         """
-        shear, level = discs.within(start[0]), start[1]
+        shear, level = within(start[0], discs.bound), start[1]
         slips = np.hypot(shear[:, 0], shear[:, 1]) >= discs.bound * (1 - 1e-12)
         enough, products = share * float(discs.bound.sum()), 0
         best: Sheared | None = None

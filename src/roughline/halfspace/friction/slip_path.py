@@ -34,6 +34,7 @@ from roughline.halfspace.friction.discs import Discs, DiscSearch, Linear, Sheare
 from roughline.halfspace.friction.law import Friction
 from roughline.halfspace.friction.rates import Going, Rim
 from roughline.halfspace.friction.tangents import ShearTangents, coupled_tangents, shear_tangents
+from roughline.halfspace.friction.vectors import on_nodes, within
 from roughline.halfspace.inverse.approximate_inverse import preconditioner
 from roughline.halfspace.inverse.cache import inverse_on
 from roughline.halfspace.operators.grid_nodes import GridNodes
@@ -187,10 +188,11 @@ class SlidePath:
         everywhere = problem.grid.nodes(InGrid(np.arange(problem.separation.size)))
         start, found, convolutions, lift = None, None, 0, np.zeros(problem.separation.shape)
         if last is not None and last.contact.nodes.size:
-            start = last.contact.contact_set
-            lift = self._lift(last.contact.nodes, last.shear, everywhere)
+            found = self._led(last, load, shear)
+            start = found.contact.contact_set
+            lift = self._lift(last.contact.nodes, found.shear, everywhere)
         before = None if last is None else self._moved_by(last, everywhere)
-        rtol, error = self._method.rtol, 1.0
+        rtol, error, step = self._method.rtol, 1.0, None
         for _ in range(_MOST_ALTERNATIONS):
             aim = max(rtol, min(_ROUGHEST_TURN, _TURN_SHARE * error))
             method = replace(self._method, rtol=aim)
@@ -202,7 +204,7 @@ class SlidePath:
                 return _unknown(contact, contact.outcome)
             if not contact.nodes.size:
                 return _apart(replace(contact, problem=problem), shear, last)
-            step = _SlideStep(self._bodies, contact, last, (found, before), aim)
+            step = _SlideStep(self._bodies, contact, last, (found, before, step), aim)
             found = step.under(shear)
             convolutions += step.convolutions
             if found.outcome is not Outcome.CONVERGED:
@@ -235,6 +237,27 @@ class SlidePath:
             convolutions=convolutions,
             sticks=tangents.sticks,
             tangents=tangents,
+        )
+
+    def _led(self, last: Slid, load: Load, shear: ShearLoad) -> Slid:
+        """Return about the state under the next load: the last, led along its tangent."""
+        before, tangents = last.contact, last.tangents
+        if tangents is None or tangents.coupled is None:
+            return last
+        by_force, by_shear = load.force is not None, shear.force is not None
+        normal = load.value - (before.force if by_force else before.depth)
+        along = np.array(shear.force if by_shear else shear.slide)
+        along -= last.force if by_shear else last.slide
+        on, back = tangents.coupled
+        tangent = on if last.force @ along >= 0 <= normal else back
+        ways, more = tangent.led(Going(normal, (along[0], along[1]), by_force, by_shear))
+        pressure = np.maximum(before.pressure + more[:, 2], 0.0)
+        bound = self._bodies.friction.bound(pressure, before.nodes)
+        return replace(
+            last,
+            contact=replace(before, pressure=pressure, depth=before.depth + ways[2]),
+            shear=within(last.shear + more[:, :2], bound),
+            slide=last.slide + ways[:2],
         )
 
     def _moved_by(self, last: Slid, everywhere: GridNodes) -> Real:
@@ -271,13 +294,13 @@ class _SlideStep:
         bodies: _Bodies,
         contact: Contact,
         last: Slid | None,
-        again: tuple[Slid | None, Real | None] = (None, None),
+        again: tuple[Slid | None, Real | None, _SlideStep | None] = (None, None, None),
         rtol: float | None = None,
     ) -> None:
         """Take the bodies, the contact, and the last state.
 
-        If it is solved again, there is the state under nearly these pressures, and how the last
-        state displaces all of the grid.
+        If it is solved again, there is the state under nearly these pressures, how the last state
+        displaces all of the grid, and the step as it was solved before.
         """
         grid, exact = bodies.problem.grid, bodies.exact
         self._exact, self._contact, self._last = exact, contact, last
@@ -295,6 +318,8 @@ class _SlideStep:
         self._nearly, (self._moved_before, self._start) = again[0], self._before(again[1])
         if self._nearly is not None:
             self._start = self._on_these_discs(self._nearly)
+        if again[2] is not None and np.array_equal(again[2]._contact.nodes, contact.nodes):
+            self._known = again[2]._known
         gap, own = self._gaps_before(), bodies.diagonal * contact.pressure + self._dented()
         self._springs = gap / own * exact.diagonal
         self._since_contact = own / (gap + own)
@@ -311,10 +336,10 @@ class _SlideStep:
         if last is None or not last.displacement.any():
             return moved - self._pushed, shear
         before = last.contact
-        shear = _on(nodes, before.nodes, last.shear)
+        shear = on_nodes(nodes, before.nodes, last.shear)
         kept = int(np.isin(nodes, before.nodes, assume_unique=True).sum())
         if kept == nodes.size:
-            moved = _on(nodes, before.nodes, last.displacement)
+            moved = on_nodes(nodes, before.nodes, last.displacement)
         elif everywhere is not None:
             moved = everywhere[nodes]
         else:
@@ -331,9 +356,9 @@ class _SlideStep:
         nodes, others = self._contact.nodes, nearly.contact.nodes
         bound = self._friction.bound(nearly.contact.pressure, others)
         rim = Rim.of(nearly.shear, bound, np.zeros_like(bound, dtype=bool), bound)
-        slips = _on(nodes, others, rim.full.astype(np.float64)) > 0
-        on_rim = self._bound[:, np.newaxis] * _on(nodes, others, rim.outward)
-        return np.where(slips[:, np.newaxis], on_rim, _on(nodes, others, nearly.shear))
+        slips = on_nodes(nodes, others, rim.full.astype(np.float64)) > 0
+        on_rim = self._bound[:, np.newaxis] * on_nodes(nodes, others, rim.outward)
+        return np.where(slips[:, np.newaxis], on_rim, on_nodes(nodes, others, nearly.shear))
 
     def _gaps_before(self) -> Real:
         """Return the gaps that nodes had at the last load; zero where they were in contact."""
@@ -377,8 +402,8 @@ class _SlideStep:
     def coupled_tangents(self, found: Slid) -> tuple[ShearTangents, tuple[float, float]]:
         """Return the tangents of bodies that are coupled, and the normal stiffness on both."""
         assert found.went is not None
-        rim = self._rim(found.shear)
-        return coupled_tangents(self._operators, self._contact, rim, found.went, self._method)
+        given = self._operators, self._contact, self._rim(found.shear), found.went, self._method
+        return coupled_tangents(*given, None if self._last is None else self._last.tangents)
 
     @property
     def _rigid(self) -> float:
@@ -413,7 +438,9 @@ class _SlideStep:
         if not nearer > 0:
             return self._start
         before = (
-            0.0 if last is None else _on(contact.nodes, last.contact.nodes, last.contact.pressure)
+            0.0
+            if last is None
+            else on_nodes(contact.nodes, last.contact.nodes, last.contact.pressure)
         )
         slope = way / (nearer * contact.problem.grid.half_space.even_shear[1])
         added: Real = (contact.pressure - before)[:, np.newaxis] * slope
@@ -502,16 +529,6 @@ class _SlideStep:
         )
 
 
-def _on(nodes: InGrid, others: InGrid, values: Real) -> Real:
-    """Return values, given on other nodes, on nodes; zero where they are not given."""
-    found = np.zeros((nodes.size, *values.shape[1:]))
-    if others.size:
-        places = np.minimum(np.searchsorted(others, nodes), others.size - 1)
-        known = others[places] == nodes
-        found[known] = values[places[known]]
-    return found
-
-
 class _Operators:
     """How shear displaces a set of nodes: exactly, and nearly, at the cost of the contact."""
 
@@ -573,7 +590,7 @@ class _Operators:
         exact, rough = DiscSearch(self.exact, self.inverse), self.rough
         if rough is None:
             return exact.found(discs, start, tolerance=tolerance, share=share)
-        before, inside = math.inf, discs.within(start[0])
+        before, inside = math.inf, within(start[0], discs.bound)
         known = known or (inside, self.exact(inside))
         for _ in range(_MOST_TURNS):
             search = DiscSearch(rough, self.inverse, known)

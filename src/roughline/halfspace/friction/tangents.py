@@ -12,17 +12,18 @@ References
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
 
-from roughline.computing.arrays import Mask, Real
+from roughline.computing.arrays import InGrid, Mask, Real, Single
 from roughline.computing.krylov import least_residual
 from roughline.halfspace.friction.discs import Linear
 from roughline.halfspace.friction.rates import Going, Rates, Rim, slip_on
-from roughline.halfspace.friction.vectors import followed, inner
+from roughline.halfspace.friction.vectors import followed, inner, on_nodes
 from roughline.halfspace.inverse.approximate_inverse import preconditioner
 from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.search.problem import Contact, Method
@@ -32,7 +33,7 @@ _MOST_STEPS = 300
 _NOTHING_RESISTS = 1e-9  # of the largest stiffness along the surface
 _ROUGH_SHARE = 1e-6  # of the energy of an error, that steps with rough operators leave
 _ROUGH_ERROR = 0.03  # of the energy that they find, at most
-_COUPLED_SHARE = 3e-3  # of what rough operators of coupled bodies correct, and what they err by
+_COUPLED_SHARE = 1e-3  # of what rough operators of coupled bodies correct, and what they err by
 _MOST_TURNS = 10  # of corrections
 _SCALE_SHARE = 0.1  # of the energy that counts, up to which they go on
 
@@ -51,6 +52,29 @@ class UnitSlides:
 
 
 @dataclass(frozen=True, eq=False)
+class UnitWays:
+    """Pressures and shear of nodes by unit slides along x and y, and by a unit approach.
+
+    They are kept to start from, in single precision.
+    """
+
+    nodes: InGrid
+    tractions: Single  # shape (nodes, 3, 3): shear along x and y and pressure, by each of the ways
+    totals: Real  # of these, shape (3, 3) [force / length]
+
+    def moved(self, others: UnitWays, to: UnitWays) -> UnitWays:
+        """Return these where others, of the same nodes, have gone elsewhere."""
+        change = to.tractions - on_nodes(to.nodes, others.nodes, others.tractions)
+        tractions = on_nodes(to.nodes, self.nodes, self.tractions) + change
+        return replace(to, tractions=tractions.astype(np.float32))
+
+    def led(self, going: Going) -> tuple[Real, Real]:
+        """Return the ways after which loads have gone so, and what nodes bear more after them."""
+        ways = _ways(self.totals, going)
+        return ways, self.tractions.astype(np.float64) @ ways
+
+
+@dataclass(frozen=True, eq=False)
 class ShearTangents:
     """Stiffness dQ/d(slide) at a state, each 2 by 2, and where it sticks. [force / length]"""
 
@@ -59,6 +83,7 @@ class ShearTangents:
     back: Real
     convolutions: int = 0
     led: tuple[UnitSlides, UnitSlides] | None = None  # how shear follows, on and back
+    coupled: tuple[UnitWays, UnitWays] | None = None  # the same of bodies that are coupled
 
 
 class ShearMaps(Protocol):
@@ -189,22 +214,36 @@ class CoupledMaps(ShearMaps, Protocol):
 
 
 def coupled_tangents(
-    maps: CoupledMaps, contact: Contact, rim: Rim, going: Going, method: Method
+    maps: CoupledMaps,
+    contact: Contact,
+    rim: Rim,
+    going: Going,
+    method: Method,
+    last: ShearTangents | None = None,
 ) -> tuple[ShearTangents, tuple[float, float]]:
     """Solve for both tangents of bodies that are coupled, and for dF/dd on both.
 
     Where a node slips its shear follows the pressure, so that the equations are not symmetric. The
-    tangents are those under a constant force, and dF/dd is that under a constant shear force.
+    tangents are those under a constant force, and dF/dd is that under a constant shear force. They
+    are begun with those of the last load.
     """
     grid, nobody = contact.problem.grid, np.zeros_like(rim.full)
     if contact.nodes.size == contact.separation.size and grid.inverse.operator.mean_is_free:
         unknown = np.full((2, 2), np.nan)
         return ShearTangents(~rim.full, unknown, unknown), (np.inf, np.inf)
+    begun = (None, None) if last is None or last.coupled is None else last.coupled
     rates = _CoupledRates(maps, contact, rim, going, method.rtol)
-    along_back, normal_back = _condensed(grid.cell_area * rates.form(nobody))
+    back = rates.ways(nobody, begun[1])
+    rates.start = back if begun[0] is None else begun[0].moved(begun[1], back)
     slips = slip_on(rim, rates.of) if rim.may_slip.any() else nobody
-    along_on, normal_on = _condensed(grid.cell_area * rates.form(slips))
-    return ShearTangents(~slips, along_on, along_back, rates.spent), (normal_on, normal_back)
+    on = rates.ways(slips) if slips.any() else back
+    (along_on, normal_on), (along_back, normal_back) = (
+        _condensed(on.totals),
+        _condensed(back.totals),
+    )
+    both = (on, back) if np.isfinite([on.totals, back.totals]).all() else None
+    tangents = ShearTangents(~slips, along_on, along_back, rates.spent, coupled=both)
+    return tangents, (normal_on, normal_back)
 
 
 class _CoupledRates:
@@ -215,39 +254,43 @@ class _CoupledRates:
     ) -> None:
         self._maps, self._contact, self._rim, self._going = maps, contact, rim, going
         self._rtol, self.spent = rtol, 0
-        self._known: tuple[Mask, list[tuple[Real, Real]], Real] | None = None
+        self.start: UnitWays | None = None
+        self._known: tuple[Mask, Real, UnitWays] | None = None
 
-    def _columns(self, slips: Mask) -> tuple[list[tuple[Real, Real]], Real]:
-        """Return pressures and shear by unit slides and a unit approach, and their totals."""
+    def ways(self, slips: Mask, start: UnitWays | None = None) -> UnitWays:
+        """Return pressures and shear by unit slides and a unit approach where some nodes slip."""
         if self._known is None or (self._known[0] != slips).any():
             stuck = _CoupledStuck(self._maps, self._contact, self._rim, slips)
-            form, products = stuck.stiffness(self._rtol)
-            self.spent += 7 * products
-            self._known = slips.copy(), stuck.found, form
-        return self._known[1:]
-
-    def form(self, slips: Mask) -> Real:
-        """Return the totals of shear and pressure by unit slides and a unit approach."""
-        return self._columns(slips)[1]
+            form, tractions = stuck.stiffness(self._rtol, start or self.start)
+            self.spent += 7 * stuck.products
+            totals = self._contact.problem.grid.cell_area * form
+            ways = UnitWays(self._contact.nodes, tractions.astype(np.float32), totals)
+            self._known, self.start = (slips.copy(), tractions, ways), ways
+        return self._known[2]
 
     def of(self, slips: Mask) -> Rates | None:
         """Return how nodes go on where some slip; None if nothing goes on, or it is not solved."""
-        going, area = self._going, self._contact.problem.grid.cell_area
-        columns, form = self._columns(slips)
-        if going.stands or np.isnan(form).any():
+        totals = self.ways(slips).totals
+        if self._going.stands or np.isnan(totals).any():
             return None
-        asked, given = area * form, np.array([*going.along, going.normal])
-        if not going.by_shear:
-            asked[:2] = np.eye(3)[:2]
-        if not going.by_force:
-            asked[2] = np.eye(3)[2]
-        moved = np.linalg.lstsq(asked, given, rcond=None)[0]
-        pressure = sum(each * p for each, (p, _) in zip(moved, columns, strict=True))
-        shear = sum(each * q for each, (_, q) in zip(moved, columns, strict=True))
+        assert self._known is not None
+        moved = _ways(totals, self._going)
+        both = self._known[1] @ moved
+        shear, pressure = np.ascontiguousarray(both[:, :2]), both[:, 2].copy()
         self.spent += 7
         _, there = self._maps.displaced(pressure, shear)
         slip = self._rim.along(moved[:2] - there)
         return Rates(slip, self._rim.along(shear) - self._rim.slope * pressure)
+
+
+def _ways(totals: Real, going: Going) -> Real:
+    """Return the slides and the approach with which loads go so."""
+    asked, given = totals.copy(), np.array([*going.along, going.normal])
+    if not going.by_shear:
+        asked[:2] = np.eye(3)[:2]
+    if not going.by_force:
+        asked[2] = np.eye(3)[2]
+    return np.asarray(np.linalg.lstsq(asked, given, rcond=None)[0], np.float64)
 
 
 def _condensed(matrix: Real) -> tuple[Real, float]:
@@ -268,11 +311,10 @@ class _CoupledStuck:
     """A contact of coupled bodies, of which some nodes slip on."""
 
     def __init__(self, maps: CoupledMaps, contact: Contact, rim: Rim, slips: Mask) -> None:
-        self._maps, self._grid, self._slips = maps, contact.problem.grid, slips
+        self._maps, self._contact, self._slips = maps, contact, slips
         self._outward = np.where(slips[:, np.newaxis], rim.outward, 0.0)
-        self._slope, self._products = rim.slope, 0
-        self._normal = preconditioner(self._grid.inverse, maps.nodes)
-        self.found: list[tuple[Real, Real]] = []  # pressures and shear by unit ways
+        self._slope, self.products = rim.slope, 0
+        self._normal = preconditioner(contact.problem.grid.inverse, maps.nodes)
 
     def _radial(self, vectors: Real) -> Real:
         """Return what of vectors nodes that slip cannot follow."""
@@ -280,7 +322,7 @@ class _CoupledStuck:
         return self._outward * along[:, np.newaxis]
 
     def _exactly(self, unknown: Real) -> Real:
-        self._products += 1
+        self.products += 1
         return self._product(unknown, self._maps.displaced)
 
     def _roughly(self, unknown: Real) -> Real:
@@ -306,9 +348,15 @@ class _CoupledStuck:
         count = self._slips.size
         return np.ascontiguousarray(both[:count]), both[count:].reshape(-1, 2)
 
-    def stiffness(self, rtol: float) -> tuple[Real, int]:
-        """Return total shear and pressure by unit slides and a unit approach, and the products."""
-        count, matrix = self._slips.size, np.full((3, 3), np.nan)
+    def stiffness(self, rtol: float, start: UnitWays | None) -> tuple[Real, Real]:
+        """Return the totals by unit slides and a unit approach, and the tractions.
+
+        Where all nodes stick the equations are symmetric, and the totals are the energy form.
+        """
+        count = self._slips.size
+        matrix, tractions = np.full((3, 3), np.nan), np.zeros((count, 3, 3))
+        begun = self._begun(start)
+        solved = []
         for axis in range(3):
             target = np.zeros(3 * count)
             if axis == 2:
@@ -316,34 +364,56 @@ class _CoupledStuck:
             else:
                 even = np.zeros((count, 2)) + np.eye(2)[axis]
                 target[count:] = (even - self._radial(even)).ravel()
-            found = self._solved(target, rtol)
+            solved.append((target, self._solved(target, begun[axis], rtol)))
+        for axis, (_, found) in enumerate(solved):
             if found is None:
                 continue
-            pressure, free = self._apart(found)
+            pressure, free = self._apart(found[0])
             shear = free - self._radial(free)
             shear += self._outward * (self._slope * pressure)[:, np.newaxis]
+            tractions[:, :2, axis], tractions[:, 2, axis] = shear, pressure
             matrix[:, axis] = *shear.sum(axis=0), pressure.sum()
-            self.found.append((pressure, shear))
-        return matrix, self._products
+            if not self._slips.any():
+                for other, (_, whole) in enumerate(solved):
+                    if whole is not None:
+                        matrix[other, axis] += np.einsum("i,i->", whole[0], found[1])
+        return matrix, tractions
 
-    def _solved(self, target: Real, rtol: float) -> Real | None:
-        """Solve with rough operators, and correct what they miss; None without convergence."""
-        found, left = np.zeros_like(target), 1.0
-        if self._maps.rough is not None:
-            residual, whole = target, float(np.abs(target).max())
-            for _ in range(_MOST_TURNS):
-                aim = max(_COUPLED_SHARE, 0.3 * rtol / left)
-                found = (
-                    found + least_residual(self._roughly, self._preconditioned, residual, aim)[0]
-                )
-                residual = target - self._exactly(found)
-                before, left = left, float(np.abs(residual).max()) / whole
-                if left <= rtol:
-                    return found
-                if left > 0.5 * before:
-                    break
-        found, left = least_residual(self._exactly, self._preconditioned, target, rtol)
-        return found if left <= rtol else None
+    def _begun(self, start: UnitWays | None) -> list[Real]:
+        """Return the unknowns to begin with: as they were, or as the bodies are pressed."""
+        count = self._slips.size
+        tractions = np.zeros((count, 3, 3))
+        if start is not None:
+            tractions = on_nodes(self._contact.nodes, start.nodes, start.tractions)
+        begun = []
+        for axis in range(3):
+            shear = tractions[:, :2, axis].astype(np.float64)
+            free = shear - self._radial(shear)
+            begun.append(np.concatenate([tractions[:, 2, axis], free.ravel()]))
+        return begun
+
+    def _solved(self, target: Real, start: Real, rtol: float) -> tuple[Real, Real] | None:
+        """Solve with rough operators, and correct what they miss; None without convergence.
+
+        What is left is returned, too. Where all nodes stick, the totals err by its energy.
+        """
+        symmetric, rough = not self._slips.any(), self._maps.rough is not None
+        enough = math.sqrt(_ENERGY_MARGIN * rtol) if symmetric else rtol
+        found, whole, left = start, float(np.abs(target).max()), math.inf
+        for _ in range(_MOST_TURNS):
+            residual = target - self._exactly(found) if found.any() else target
+            before, left = left, float(np.abs(residual).max()) / whole
+            if left <= rtol:
+                return found, residual
+            if symmetric and found.any():
+                energy = float(np.einsum("i,i->", residual, self._preconditioned(residual)))
+                if energy <= _ENERGY_MARGIN * rtol * float(np.einsum("i,i->", target, found)):
+                    return found, residual
+            rough &= left <= 0.5 * before
+            aim = max(_COUPLED_SHARE if rough else 0.0, 0.3 * enough / left)
+            product = self._roughly if rough else self._exactly
+            found = found + least_residual(product, self._preconditioned, residual, aim)[0]
+        return None
 
 
 @dataclass(frozen=True, eq=False)

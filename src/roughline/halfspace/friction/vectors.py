@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from roughline.computing.arrays import Mask, Real
+from roughline.computing.arrays import Floats, InGrid, Mask, Real
 from roughline.computing.compiled import compiled, compiled_sums
 
 
@@ -33,6 +33,15 @@ def followed(vectors: Real, slips: Mask, rim: Real) -> Real:
     return kept
 
 
+def within(vectors: Real, radius: Real) -> Real:
+    """Project vectors of nodes onto discs."""
+    size = np.hypot(vectors[:, 0], vectors[:, 1])
+    over = size > radius
+    inside = vectors.copy()
+    inside[over] *= (radius[over] / size[over])[:, np.newaxis]
+    return inside
+
+
 @compiled
 def largest_excess(shear: Real, change: Real, bound: Real) -> float:
     """Return by how much changed shear is beyond its bounds at most, or zero."""
@@ -41,3 +50,13 @@ def largest_excess(shear: Real, change: Real, bound: Real) -> float:
         x, y = shear[i, 0] + change[i, 0], shear[i, 1] + change[i, 1]
         largest = max(largest, np.sqrt(x * x + y * y) - bound[i])
     return largest
+
+
+def on_nodes(nodes: InGrid, others: InGrid, values: Floats) -> Real:
+    """Return values, given on other nodes, on nodes; zero where they are not given."""
+    found = np.zeros((nodes.size, *values.shape[1:]))
+    if others.size:
+        places = np.minimum(np.searchsorted(others, nodes), others.size - 1)
+        known = others[places] == nodes
+        found[known] = values[places[known]]
+    return found

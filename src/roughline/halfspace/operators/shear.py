@@ -62,8 +62,8 @@ class ShearConvolution:
     ) -> Real:
         """Return the displacements of nodes under shear; both of shape (nodes, 2)."""
 
-        def weigh(first: int, columns: Floats) -> None:
-            _weigh(columns, self.mean, self.part, self.skew, first)
+        def weigh(modes: slice, columns: Floats) -> None:
+            _weigh(columns, *(each[:, modes] for each in (self.mean, self.part, self.skew)))
 
         return self._transformed((shear,), sources, targets, precision, weigh)[0]
 
@@ -73,8 +73,8 @@ class ShearConvolution:
             return np.zeros((targets.indices.size, 2))
         towards = self.towards
 
-        def weigh(first: int, columns: Floats) -> None:
-            _weigh_pressure(columns, *towards, first)
+        def weigh(modes: slice, columns: Floats) -> None:
+            _weigh_pressure(columns, towards[0][:, modes], towards[1][:, modes])
 
         values = np.stack([pressure, np.zeros_like(pressure)], axis=1)
         return self._transformed((values,), sources, targets, "float64", weigh)[0]
@@ -85,8 +85,8 @@ class ShearConvolution:
             return np.zeros(targets.indices.size)
         towards = self.towards
 
-        def weigh(first: int, columns: Floats) -> None:
-            _weigh_into_body(columns, *towards, first)
+        def weigh(modes: slice, columns: Floats) -> None:
+            _weigh_into_body(columns, towards[0][:, modes], towards[1][:, modes])
 
         return self._transformed((shear,), sources, targets, "float64", weigh)[0][:, 0].copy()
 
@@ -98,10 +98,10 @@ class ShearConvolution:
         The normal spectrum is that of pressure that displaces into the body.
         """
         assert self.towards is not None
-        along, towards = (self.mean, self.part, self.skew), self.towards
+        spectra = self.mean, self.part, self.skew, *self.towards, normal
 
-        def weigh(first: int, sheared: Floats, pressed: Floats) -> None:
-            _weigh_both(sheared, pressed, along, towards, normal, first)
+        def weigh(modes: slice, sheared: Floats, pressed: Floats) -> None:
+            _weigh_both(sheared, pressed, tuple(each[:, modes] for each in spectra))
 
         values = shear, np.stack([pressure, np.zeros_like(pressure)], axis=1)
         moved, into = self._transformed(values, sources, targets, "float64", weigh)
@@ -117,42 +117,67 @@ class ShearConvolution:
     ) -> list[Real]:
         """Return fields of vectors on nodes, transformed, weighed together and transformed back.
 
-        Rows come first, then columns in pairs of opposite wavenumbers, block by block, then rows
-        back.
+        Of padded rows even modes along y are taken first, then odd ones, for less memory.
         """
-        (nx, _), (mx, my) = self.shape, self.periods
+        results = [np.zeros((targets.indices.size, 2)) for _ in fields]
+        parts = 2 if self.periods[1] >= 2 * self.shape[1] and self.periods[1] % 2 == 0 else 1
+        for odd in range(parts):
+            self._add_transformed(
+                fields, (sources, targets), precision, weigh, (odd, parts), results
+            )
+        return results
+
+    def _add_transformed(
+        self,
+        fields: tuple[Real, ...],
+        nodes: tuple[GridNodes, GridNodes],
+        precision: Precision,
+        weigh: Callable[..., None],
+        part: tuple[int, int],
+        results: list[Real],
+    ) -> None:
+        """Add what all modes along y give, or the even ones, or the odd ones.
+
+        Rows come first, then columns in pairs of opposite wavenumbers, block by block, then rows
+        back. Odd modes are those of half the period of the row turned by one mode.
+        """
+        (sources, targets), (odd, parts) = nodes, part
+        (nx, ny), mx, my = self.shape, self.periods[0], self.periods[1] // parts
         kind = np.complex128 if precision == "float64" else np.complex64
         names = ("rows", "shear rows")[: len(fields)]  # the first are those of pressures, too
         rows = [self.workspace.array(name, (nx, my + 8), kind) for name in names]
-        results = [np.empty((targets.indices.size, 2)) for _ in fields]
+        turns = np.exp(2j * np.pi / self.periods[1] * np.arange(ny)).astype(kind) if odd else None
 
         def transform_rows(first: int, last: int) -> None:
             for values, modes in zip(fields, rows, strict=True):
                 _scatter(values, *sources.listed[:2], first, last, modes)
+                if turns is not None:
+                    modes[first:last, :ny] *= turns.conj()
                 fft.fft_along(modes[first:last, :my], 1, forward=True)
 
         def convolve_columns(first: int, last: int) -> None:
             blocks = np.zeros((len(fields), 2, mx, last - first), dtype=kind)
             for columns, modes in zip(blocks, rows, strict=True):
-                _load(modes, my, sources.rows, first, columns)
+                _load(modes, my, odd, sources.rows, first, columns)
                 for each in columns:
                     fft.fft_along(each, 0, forward=True)
-            weigh(first, *blocks)
+            weigh(slice(odd + parts * first, None, parts), *blocks)
             for columns, modes in zip(blocks, rows, strict=True):
                 for each in columns:
                     fft.fft_along(each, 0, forward=False)
-                _store(columns, targets.rows, first, modes, my)
+                _store(columns, targets.rows, first, odd, modes, my)
 
         def transform_rows_back(first: int, last: int) -> None:
             for modes, result in zip(rows, results, strict=True):
                 fft.fft_along(modes[first:last, :my], 1, forward=False)
+                if turns is not None:
+                    modes[first:last, :ny] *= turns
                 _gather(modes, *targets.listed[:2], first, last, result)
 
         at_a_time = fft.LINES_AT_A_TIME
         fft.share_out_blocks(transform_rows, sources.rows.size, at_a_time)
-        fft.share_out_blocks(convolve_columns, my // 2 + 1, at_a_time // 2)
+        fft.share_out_blocks(convolve_columns, (my - odd) // 2 + 1, at_a_time // 2)
         fft.share_out_blocks(transform_rows_back, targets.rows.size, at_a_time)
-        return results
 
 
 def shear_on_grid(
@@ -320,35 +345,42 @@ def _scatter(
 def _gather(
     rows: Floats, starts: Integers, columns: Integers, first: int, last: int, values: Floats
 ) -> None:
-    """Write into vectors what stands where _scatter would write them."""
+    """Add to vectors what stands where _scatter would write them."""
     for row in range(first, last):
         for i in range(starts[row], starts[row + 1]):
-            values[i, 0] = rows[row, columns[i]].real
-            values[i, 1] = rows[row, columns[i]].imag
+            values[i, 0] += rows[row, columns[i]].real
+            values[i, 1] += rows[row, columns[i]].imag
 
 
 @compiled
-def _load(rows: Floats, period: int, places: Integers, first: int, columns: Floats) -> None:
-    """Copy a block of modes and their opposites to columns; rows go to their places."""
+def _load(
+    rows: Floats, period: int, odd: int, places: Integers, first: int, columns: Floats
+) -> None:
+    """Copy a block of modes and their opposites to columns; rows go to their places.
+
+    With `odd` one, mode j stands for the wavenumber 2 j + 1, and period - 1 - j is its opposite.
+    """
     for row in range(places.size):
         for j in range(columns.shape[2]):
             mode = first + j
             columns[0, places[row], j] = rows[row, mode]
-            columns[1, places[row], j] = rows[row, (period - mode) % period]
+            columns[1, places[row], j] = rows[row, (period - odd - mode) % period]
 
 
 @compiled
-def _store(columns: Floats, places: Integers, first: int, rows: Floats, period: int) -> None:
+def _store(
+    columns: Floats, places: Integers, first: int, odd: int, rows: Floats, period: int
+) -> None:
     """Copy some rows of columns back."""
     for row in range(places.size):
         for j in range(columns.shape[2]):
             mode = first + j
-            rows[row, (period - mode) % period] = columns[1, places[row], j]
+            rows[row, (period - odd - mode) % period] = columns[1, places[row], j]
             rows[row, mode] = columns[0, places[row], j]
 
 
 @compiled
-def _weigh(columns: Floats, mean: Real, part: Real, skew: Real, first: int) -> None:
+def _weigh(columns: Floats, mean: Real, part: Real, skew: Real) -> None:
     """Replace the shear of pairs of opposite waves by the displacements."""
     period = columns.shape[1]
     for i in range(period):
@@ -357,14 +389,14 @@ def _weigh(columns: Floats, mean: Real, part: Real, skew: Real, first: int) -> N
         sign = 1.0 if i == quarter else -1.0
         for j in range(columns.shape[2]):
             z, other = columns[0, i, j], columns[1, opposite, j]
-            mixed = part[quarter, first + j] + 1j * sign * skew[quarter, first + j]
-            weight = mean[quarter, first + j]
+            mixed = part[quarter, j] + 1j * sign * skew[quarter, j]
+            weight = mean[quarter, j]
             columns[0, i, j] = weight * z + mixed * np.conj(other)
             columns[1, opposite, j] = weight * other + mixed * np.conj(z)
 
 
 @compiled
-def _weigh_pressure(columns: Floats, towards_x: Real, towards_y: Real, first: int) -> None:
+def _weigh_pressure(columns: Floats, towards_x: Real, towards_y: Real) -> None:
     """Replace the pressure of pairs of opposite waves by the displacements along the surface."""
     period = columns.shape[1]
     for i in range(period):
@@ -372,15 +404,13 @@ def _weigh_pressure(columns: Floats, towards_x: Real, towards_y: Real, first: in
         quarter = min(i, opposite)
         sign = 1.0 if i == quarter else -1.0
         for j in range(columns.shape[2]):
-            weight = 1j * (
-                sign * towards_x[quarter, first + j] + 1j * towards_y[quarter, first + j]
-            )
+            weight = 1j * (sign * towards_x[quarter, j] + 1j * towards_y[quarter, j])
             columns[0, i, j] *= weight
             columns[1, opposite, j] *= -weight
 
 
 @compiled
-def _weigh_into_body(columns: Floats, towards_x: Real, towards_y: Real, first: int) -> None:
+def _weigh_into_body(columns: Floats, towards_x: Real, towards_y: Real) -> None:
     """Replace the shear of pairs of opposite waves by the displacements into the body."""
     period = columns.shape[1]
     for i in range(period):
@@ -388,7 +418,7 @@ def _weigh_into_body(columns: Floats, towards_x: Real, towards_y: Real, first: i
         quarter = min(i, opposite)
         sign = 1.0 if i == quarter else -1.0
         for j in range(columns.shape[2]):
-            e = sign * towards_x[quarter, first + j] + 1j * towards_y[quarter, first + j]
+            e = sign * towards_x[quarter, j] + 1j * towards_y[quarter, j]
             z, other = columns[0, i, j], columns[1, opposite, j]
             columns[0, i, j] = -0.5j * (np.conj(e) * z + e * np.conj(other))
             columns[1, opposite, j] = 0.5j * (np.conj(e) * other + e * np.conj(z))
@@ -398,19 +428,17 @@ def _weigh_into_body(columns: Floats, towards_x: Real, towards_y: Real, first: i
 def _weigh_both(
     sheared: Floats,
     pressed: Floats,
-    along: tuple[Real, Real, Real],
-    towards: tuple[Real, Real],
-    normal: Real,
-    first: int,
+    spectra: tuple[Real, ...],
 ) -> None:
     """Replace shear and pressure of pairs of opposite waves by what both displace."""
-    (mean, part, skew), (towards_x, towards_y), period = along, towards, sheared.shape[1]
+    mean, part, skew, towards_x, towards_y, normal = spectra
+    period = sheared.shape[1]
     for i in range(period):
         opposite = (period - i) % period
         quarter = min(i, opposite)
         sign = 1.0 if i == quarter else -1.0
         for j in range(sheared.shape[2]):
-            at = quarter, first + j
+            at = quarter, j
             z, other = sheared[0, i, j], sheared[1, opposite, j]
             p, p_other = pressed[0, i, j], pressed[1, opposite, j]
             mixed, e = part[at] + 1j * sign * skew[at], sign * towards_x[at] + 1j * towards_y[at]
