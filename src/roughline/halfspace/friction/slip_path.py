@@ -37,7 +37,7 @@ from roughline.halfspace.friction.tangents import ShearTangents, coupled_tangent
 from roughline.halfspace.inverse.approximate_inverse import preconditioner
 from roughline.halfspace.inverse.cache import inverse_on
 from roughline.halfspace.operators.grid_nodes import GridNodes
-from roughline.halfspace.operators.restricted_shear import RestrictedShear, is_uniform
+from roughline.halfspace.operators.restricted_shear import RestrictedShear
 from roughline.halfspace.operators.shear import ShearConvolution, at_origin, shear_on_grid
 from roughline.halfspace.search.path import LoadPath
 from roughline.halfspace.search.problem import Contact, Load, Method, Outcome, Problem
@@ -126,7 +126,7 @@ class _Bodies:
     def restricted(self, nodes: GridNodes) -> RestrictedShear | None:
         """Return how shear displaces them roughly, if that costs less on some nodes."""
         grid, forms = self.problem.grid, self.problem.grid.inverse.restricted
-        ratios = forms.ratios(nodes) if is_uniform(grid.half_space) else None
+        ratios = forms.ratios(nodes)
         if ratios is None:
             return None
         if ratios not in self._made:
