@@ -71,7 +71,7 @@ class FinerGrid(Cause):
         Where other causes leave the same open and are not known, it would not tell how far.
         """
         body, question = asked.body, case.question
-        is_known = question.joint is None and not case.filled and not broken("grid", body)
+        is_known = question.joint is None and not broken("grid", body)
         is_even = not (body.shape[0] % 2 or body.shape[1] % 2)
         if not (case.loads.grid_error and is_known and is_even) or question.coated:
             return None
