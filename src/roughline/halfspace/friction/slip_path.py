@@ -190,19 +190,23 @@ class SlidePath:
             start = last.contact.contact_set
             lift = self._lift(last.contact.nodes, last.shear, everywhere)
         before = None if last is None else self._moved_by(last, everywhere)
+        left = problem if last is None else last.contact.problem  # by the loads so far
         rtol, error = self._method.rtol, 1.0
         for _ in range(_MOST_ALTERNATIONS):
             aim = max(rtol, min(_ROUGHEST_TURN, _TURN_SHARE * error))
             method = replace(self._method, rtol=aim)
-            bodies = replace(problem, separation=problem.separation + lift)
-            contact, window = self._path.settled_from(start, bodies, load, method)
+            lifted = replace(problem, separation=left.separation + lift)
+            contact, window = self._path.settled_from(start, lifted, load, method)
             convolutions += contact.convolutions
             contact = replace(contact, load=load)
             if contact.outcome is not Outcome.CONVERGED:
                 return _unknown(contact, contact.outcome)
+            dented = left.separation + (contact.separation - lifted.separation)
+            unlifted = replace(contact, problem=replace(left, separation=dented))
             if not contact.nodes.size:
-                return _apart(replace(contact, problem=problem), shear, last)
-            step = _SlideStep(self._bodies, contact, last, (found, before), aim)
+                answer = response(contact, window, None, self._method)
+                return _apart(replace(unlifted, response=answer), shear, last)
+            step = _SlideStep(self._bodies, unlifted, last, (found, before), aim)
             found = step.under(shear)
             convolutions += step.convolutions
             if found.outcome is not Outcome.CONVERGED:
@@ -217,8 +221,7 @@ class SlidePath:
         answer = response(contact, window, None, self._method)
         residuals = contact.residuals
         contact = replace(
-            contact,
-            problem=problem,
+            unlifted,
             looked_at=None,
             gaps=(contact.gap + change).ravel(),
             residuals=replace(

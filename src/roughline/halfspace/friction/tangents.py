@@ -21,7 +21,7 @@ import numpy as np
 from roughline.computing.arrays import Mask, Real
 from roughline.computing.krylov import least_residual
 from roughline.halfspace.friction.discs import Linear
-from roughline.halfspace.friction.rates import Going, Rates, Rim, slip_on
+from roughline.halfspace.friction.rates import Going, Rates, Rim, rounding_of, slip_on
 from roughline.halfspace.friction.vectors import followed, inner
 from roughline.halfspace.inverse.approximate_inverse import preconditioner
 from roughline.halfspace.operators.grid_nodes import GridNodes
@@ -202,8 +202,11 @@ def coupled_tangents(
         return ShearTangents(~rim.full, unknown, unknown), (np.inf, np.inf)
     rates = _CoupledRates(maps, contact, rim, going, method.rtol)
     along_back, normal_back = _condensed(grid.cell_area * rates.form(nobody))
-    slips = slip_on(rim, rates.of) if rim.may_slip.any() else nobody
+    slips = rates.slips_on()
     along_on, normal_on = _condensed(grid.cell_area * rates.form(slips))
+    if rates.yielding.sum() < contact.plastic.sum():  # under more load all of them yield on
+        rates.yielding = contact.plastic
+        _, normal_on = _condensed(grid.cell_area * rates.form(slips))
     return ShearTangents(~slips, along_on, along_back, rates.spent), (normal_on, normal_back)
 
 
@@ -215,16 +218,36 @@ class _CoupledRates:
     ) -> None:
         self._maps, self._contact, self._rim, self._going = maps, contact, rim, going
         self._rtol, self.spent = rtol, 0
-        self._known: tuple[Mask, list[tuple[Real, Real]], Real] | None = None
+        self.yielding = np.zeros_like(rim.full)  # nodes at the hardness that bear no more
+        self._known: tuple[Real, list[tuple[Real, Real]], Real] | None = None
+        self._goes_on_wrong = np.zeros_like(rim.full)
 
     def _columns(self, slips: Mask) -> tuple[list[tuple[Real, Real]], Real]:
         """Return pressures and shear by unit slides and a unit approach, and their totals."""
-        if self._known is None or (self._known[0] != slips).any():
-            stuck = _CoupledStuck(self._maps, self._contact, self._rim, slips)
+        sets = np.array([slips, self.yielding])
+        if self._known is None or (self._known[0] != sets).any():
+            stuck = _CoupledStuck(self._maps, self._contact, self._rim, slips, self.yielding)
             form, products = stuck.stiffness(self._rtol)
             self.spent += 7 * products
-            self._known = slips.copy(), stuck.found, form
+            self._known = sets, stuck.found, form
         return self._known[1:]
+
+    def slips_on(self) -> Mask:
+        """Return which nodes slip on, and find those that yield on: the dents of these grow.
+
+        A node at the hardness that yields no more must bear less.
+        """
+        self.yielding, slips = self._contact.plastic.copy(), self._rim.full & False
+        for _ in range(_MOST_TURNS):
+            self._goes_on_wrong[:] = False
+            if self._rim.may_slip.any():
+                slips = slip_on(self._rim, self.of)
+            elif self.yielding.any():
+                self.of(slips)
+            if not self._goes_on_wrong.any():
+                break
+            self.yielding = self.yielding ^ self._goes_on_wrong
+        return slips
 
     def form(self, slips: Mask) -> Real:
         """Return the totals of shear and pressure by unit slides and a unit approach."""
@@ -245,7 +268,13 @@ class _CoupledRates:
         pressure = sum(each * p for each, (p, _) in zip(moved, columns, strict=True))
         shear = sum(each * q for each, (_, q) in zip(moved, columns, strict=True))
         self.spent += 7
-        _, there = self._maps.displaced(pressure, shear)
+        into, there = self._maps.displaced(pressure, shear)
+        dents, plastic = moved[2] - into, self._contact.plastic
+        self._goes_on_wrong = np.where(
+            self.yielding,
+            dents < -rounding_of(dents),
+            plastic & (pressure > rounding_of(pressure)),
+        )
         slip = self._rim.along(moved[:2] - there)
         return Rates(slip, self._rim.along(shear) - self._rim.slope * pressure)
 
@@ -257,7 +286,9 @@ def _condensed(matrix: Real) -> tuple[Real, float]:
     """
     along, normal = matrix[:2, :2], float(matrix[2, 2])
     of_depth, of_slide = matrix[:2, 2], matrix[2, :2]
-    held = along - np.outer(of_depth, of_slide) / normal
+    held = along
+    if normal:  # else all nodes yield on, and bear no more in any case
+        held = along - np.outer(of_depth, of_slide) / normal
     if not np.isfinite(matrix).all():
         return held, np.nan
     slide = np.linalg.lstsq(along, of_depth, rcond=_NOTHING_RESISTS)[0]
@@ -265,10 +296,13 @@ def _condensed(matrix: Real) -> tuple[Real, float]:
 
 
 class _CoupledStuck:
-    """A contact of coupled bodies, of which some nodes slip on."""
+    """A contact of coupled bodies, of which some nodes slip on, and some yield on."""
 
-    def __init__(self, maps: CoupledMaps, contact: Contact, rim: Rim, slips: Mask) -> None:
+    def __init__(
+        self, maps: CoupledMaps, contact: Contact, rim: Rim, slips: Mask, yielding: Mask
+    ) -> None:
         self._maps, self._grid, self._slips = maps, contact.problem.grid, slips
+        self._yielding = yielding
         self._outward = np.where(slips[:, np.newaxis], rim.outward, 0.0)
         self._slope, self._products = rim.slope, 0
         self._normal = preconditioner(self._grid.inverse, maps.nodes)
@@ -287,12 +321,17 @@ class _CoupledStuck:
         return self._product(unknown, self._maps.roughly_displaced)
 
     def _product(self, unknown: Real, moved: Callable[[Real, Real], tuple[Real, Real]]) -> Real:
-        """Return the displacements by pressure and shear, and what is left of the radial shear."""
-        pressure, free = self._apart(unknown)
+        """Return the displacements by pressure and shear, and what is left of the radial shear.
+
+        Of a node that yields on it is what is left of its pressure.
+        """
+        given, free = self._apart(unknown)
+        pressure = np.where(self._yielding, 0.0, given)
         radial = self._radial(free)
         shear = free - radial + self._outward * (self._slope * pressure)[:, np.newaxis]
         into, along = moved(pressure, shear)
         along = along + self._maps.diagonal * radial - self._radial(along)
+        into = np.where(self._yielding, self._maps.diagonal * given, into)
         return np.concatenate([into, along.ravel()])
 
     def _preconditioned(self, moved: Real) -> Real:
@@ -300,7 +339,9 @@ class _CoupledStuck:
         radial = self._radial(along)
         shear = self._maps.inverse(along - radial)
         shear += radial / self._maps.diagonal - self._radial(shear)
-        return np.concatenate([self._normal(into), shear.ravel()])
+        pressure = self._normal(np.where(self._yielding, 0.0, into))
+        pressure = np.where(self._yielding, into / self._maps.diagonal, pressure)
+        return np.concatenate([pressure, shear.ravel()])
 
     def _apart(self, both: Real) -> tuple[Real, Real]:
         count = self._slips.size
@@ -312,7 +353,7 @@ class _CoupledStuck:
         for axis in range(3):
             target = np.zeros(3 * count)
             if axis == 2:
-                target[:count] = 1.0
+                target[:count] = ~self._yielding
             else:
                 even = np.zeros((count, 2)) + np.eye(2)[axis]
                 target[count:] = (even - self._radial(even)).ravel()
@@ -320,6 +361,7 @@ class _CoupledStuck:
             if found is None:
                 continue
             pressure, free = self._apart(found)
+            pressure = np.where(self._yielding, 0.0, pressure)
             shear = free - self._radial(free)
             shear += self._outward * (self._slope * pressure)[:, np.newaxis]
             matrix[:, axis] = *shear.sum(axis=0), pressure.sum()
