@@ -375,13 +375,13 @@ def test_bodies_that_come_apart_bear_nothing_and_come_again(beta, hardness):
         half_space=rl.Homogeneous(1.0, poisson=0.3, beta=beta),
         friction=rl.Friction(MU),
         hardness=hardness,
-        forces=[0.0, 0.01, 0.0, 0.005],
-        shear_forces=[0.0, 1e-3, 0.0, 5e-4],
+        forces=[0.02, 0.0, 0.005],
+        shear_forces=[1e-3, 0.0, 5e-4],
     )
-    assert curve.force == pytest.approx([0.0, 0.01, 0.0, 0.005])
-    assert curve.area_fraction[[0, 2]].tolist() == [0.0, 0.0]
+    assert curve.force == pytest.approx([0.02, 0.0, 0.005])
+    assert curve.area_fraction[1] == 0
     assert np.isfinite(curve.slide).all()
-    assert (curve.depth[2] > 0) == (hardness is not None)
+    assert (curve.depth[1] > 0) == (hardness is not None)
 
 
 @pytest.mark.parametrize("beta", [0.0, 2 / 7, 0.5])
