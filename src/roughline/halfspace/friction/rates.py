@@ -76,7 +76,7 @@ class Rates:
     excess: Real  # of the shear outward beyond what nodes bear, shape (nodes,)
 
 
-def rounding_of(rates: Real) -> float:
+def rate_rounding(rates: Real) -> float:
     """Return up to which size rates of nodes are zero."""
     return _RATE_ROUNDING * float(np.abs(rates).max(initial=0.0))
 
@@ -88,7 +88,7 @@ def slip_on(rim: Rim, rates: Callable[[Mask], Rates | None]) -> Mask:
         found = rates(slips)
         if found is None:
             break
-        least, most = rounding_of(found.slip), rounding_of(found.excess)
+        least, most = rate_rounding(found.slip), rate_rounding(found.excess)
         wrong = np.where(slips, found.slip < -least, rim.may_slip & (found.excess > most))
         if not wrong.any():
             break

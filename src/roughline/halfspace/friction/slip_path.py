@@ -232,13 +232,8 @@ class SlidePath:
         tangents, stiffness = step.coupled_tangents(found)
         contact = replace(contact, response=_with_stiffness(answer, stiffness))
         convolutions += answer.convolutions + tangents.convolutions
-        return replace(
-            found,
-            contact=contact,
-            convolutions=convolutions,
-            sticks=tangents.sticks,
-            tangents=tangents,
-        )
+        found = replace(found, sticks=tangents.sticks, tangents=tangents)
+        return replace(found, contact=contact, convolutions=convolutions)
 
     def _moved_by(self, last: Slid, everywhere: GridNodes) -> Real:
         """Return how a state displaces all of the grid along the surface."""

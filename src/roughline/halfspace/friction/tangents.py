@@ -21,7 +21,7 @@ import numpy as np
 from roughline.computing.arrays import Mask, Real
 from roughline.computing.krylov import least_residual
 from roughline.halfspace.friction.discs import Linear
-from roughline.halfspace.friction.rates import Going, Rates, Rim, rounding_of, slip_on
+from roughline.halfspace.friction.rates import Going, Rates, Rim, rate_rounding, slip_on
 from roughline.halfspace.friction.vectors import followed, inner
 from roughline.halfspace.inverse.approximate_inverse import preconditioner
 from roughline.halfspace.operators.grid_nodes import GridNodes
@@ -272,8 +272,8 @@ class _CoupledRates:
         dents, plastic = moved[2] - into, self._contact.plastic
         self._goes_on_wrong = np.where(
             self.yielding,
-            dents < -rounding_of(dents),
-            plastic & (pressure > rounding_of(pressure)),
+            dents < -rate_rounding(dents),
+            plastic & (pressure > rate_rounding(pressure)),
         )
         slip = self._rim.along(moved[:2] - there)
         return Rates(slip, self._rim.along(shear) - self._rim.slope * pressure)
