@@ -207,15 +207,38 @@ def test_bodies_that_yield_slip_as_their_unloading_says():
     assert sheared.micro_slip < 0.9 * elastic.micro_slip
 
 
-def test_of_two_materials_that_yield_the_coupling_is_left_out_and_that_is_said():
-    pair = ("E=3 GPa nu=0.2 hardness=60 MPa", "rigid")
-    result = rl.assess(asked(rough(), pair))
-    assert not result.sought.sheared.curve.half_space.is_coupled
-    (told,) = (each for each in result.facts if each.kind == "yielding_bodies_uncoupled")
-    assert told.numbers["beta"] == pytest.approx(0.375)
-    elastic = rl.assess(asked(rough(), pair, elastic=True))
-    assert elastic.sought.sheared.curve.half_space.is_coupled
-    assert "yielding_bodies_uncoupled" not in {each.kind for each in elastic.facts}
+@pytest.mark.parametrize(
+    ("pair", "half_space"),
+    [
+        (("rigid", "E=3 GPa nu=0.2"), rl.Homogeneous.of(3e9, 0.2)),
+        (
+            ("rigid", "E=3 GPa nu=0.2 0.1 mm on E=9 GPa nu=0.3"),
+            rl.Layered(3e9, 0.2, 1e-4, 9e9, 0.3),
+        ),
+    ],
+    ids=["two materials", "coated"],
+)
+def test_of_two_materials_that_yield_answers_are_those_of_press(pair, half_space):
+    body, hardness = rough(16), 5e6
+    result = rl.assess(asked(body, pair, loads="0.4 N", shear="40 mN", cycles=1, hardness="5 MPa"))
+    sheared = result.sought.sheared
+    assert sheared.curve.half_space.is_coupled
+    shears = [(0, 0)] * 7 + rl.cycle(0.04, per_cycle=PER_CYCLE, cycles=1)
+    forces = [0.4 * i / 8 for i in range(1, 8)] + [0.4] * (len(shears) - 7)
+    curve = rl.press(
+        body,
+        half_space=half_space,
+        hardness=hardness,
+        friction=rl.Friction(MU),
+        forces=forces,
+        shear_forces=shears,
+    )
+    assert 0.1 < curve.plastic_fraction[7] < 0.95
+    assert curve.largest_pressure.max() <= hardness * (1 + 1e-9)
+    energy = curve.dissipated[-PER_CYCLE:].sum()
+    assert result.answers["cycle_energy"].values == pytest.approx([energy], rel=1e-5)
+    slide = curve.slide[-1 - PER_CYCLE, 0] - curve.slide[7, 0]
+    assert result.answers["shear_displacement"].values == pytest.approx([slide], rel=1e-6)
 
 
 def test_intervals_hold_bodies_as_soft_and_as_hard_as_they_may_be():
@@ -248,14 +271,6 @@ REFUSED = {
     "sliding": (
         {"ask": [rl.Friction(MU), rl.Shear("0.4 N")]},
         "is 400 mN, and friction bears less than mu F = 0.3 x 1 N = 300 mN: it is too large by 100",
-    ),
-    "layers, yielding": (
-        {
-            "materials": "E=1 GPa nu=0.4 0.1 mm on E=3 GPa nu=0.3, rigid",
-            "hardness": "1 GPa",
-            "periodic": True,
-        },
-        "coated bodies that yield and are sheared",
     ),
     "adhesion": (
         {"ask": [rl.Friction(MU), rl.Shear("0.2 N"), rl.Adhesion("50 mJ/m^2")]},

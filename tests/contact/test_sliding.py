@@ -33,10 +33,6 @@ def press(**given):
             {"forces": [0.01, 0], "shear_forces": [0, 1e-3]},
             "shear_forces[1] is (0.001, 0) at forces[1] = 0, where nothing presses",
         ),
-        (
-            {"law": rl.Yielding(0.1), "half_space": rl.Homogeneous(1.0, poisson=0.3, beta=0.2)},
-            "friction of bodies that yield and whose pressure displaces them along the surface",
-        ),
         ({"law": rl.Dugdale(1e-4, 1e-2)}, "friction of bodies that stick to each other is not"),
         ({"grid_error": True}, "is not known with friction"),
         ({"forces": None, "n_loads": 3}, "with friction each has its shear"),

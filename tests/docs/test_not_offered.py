@@ -22,11 +22,7 @@ SUBJECTS = {
     "Adhesion of bodies that yield, and other laws of attraction": ("Adhesion", "Tamaas"),
     "Sheets, and layers that slip or come off": ("bonded", "finite elements"),
     "Rubber that recedes": ("viscoelastic", "loss modulus", "unloading", "Tamaas"),
-    "Sliding, and friction of coupled bodies that yield, and of bodies that stick": (
-        "sliding",
-        "hysteresis",
-        "ASPHER",
-    ),
+    "Sliding, and friction of bodies that stick": ("sliding", "hysteresis", "ASPHER"),
     "Lubrication": ("EHL", "oil"),
     "Wear": ("Archard", "running-in"),
     "Heat and temperature": ("frictional heating", "flash temperature"),

@@ -91,3 +91,50 @@ def test_points_of_either_of_two_bodies_count_as_filled(tmp_path):
     pressure = second.curve.fields[0].pressure
     assert second.on_filled[0] == pytest.approx(pressure[expected].sum() / pressure.sum())
     assert found.on_filled is not None
+
+
+PAIR = ("E=3 GPa nu=0.38", "E=3 GPa nu=0.38")
+OF_SHEAR = ("shear_displacement", "stiffness_on_return", "cycle_energy", "fretting")
+
+
+def sheared(heights, folder, load, filling="harmonic"):
+    """The answers of a shear force on a map of which points are missing."""
+    file = folder / "map.txt"
+    np.savetxt(file, heights)
+    question = rl.Question(
+        file,
+        PAIR,
+        loads=load,
+        ask=[rl.Friction(0.3), rl.Shear(f"{0.2 * load} N")],
+        grid_error=True,
+        reading=rl.Reading("m", sizes=f"{LENGTH} m", missing=rl.Missing(filling)),
+    )
+    return rl.assess(question)
+
+
+def test_intervals_of_stick_and_slip_hold_what_another_filling_gives(tmp_path):
+    heights = np.array(SPECTRUM.surface(32, 2).heights)
+    heights[heights > np.quantile(heights, 0.995)] = np.nan  # spots that were too steep to see
+    heights[5:8, 20:23] = np.nan
+    found, other = (sheared(heights, tmp_path, 0.1, each) for each in ("harmonic", "nearest"))
+    assert 0 < found.on_filled[0] < 0.1
+    for key in OF_SHEAR:
+        answer, there = found.answers[key], other.answers[key].values[0]
+        (margin,) = (each for each in answer.margins if each.cause == "filling")
+        factor = np.exp(abs(np.log(there / answer.values[0])))
+        assert margin.high[0] == pytest.approx(answer.values[0] * factor, rel=1e-5)
+        assert margin.low[0] == pytest.approx(answer.values[0] / factor, rel=1e-5)
+        assert answer.low[0] <= margin.low[0] < margin.high[0] <= answer.high[0]
+    assert "shear_left_open" not in {each.kind for each in found.facts}
+
+
+def test_what_slips_where_much_stands_on_filled_points_is_not_known(tmp_path):
+    i, j = np.indices((32, 32)) - 15
+    heights = np.array(SPECTRUM.surface(32, 2).heights) - 4e-8 * (i**2 + j**2)  # of a dome
+    is_known = (i % 2 == 0) & (j % 2 == 0)
+    heights[(np.hypot(i, j) < 5) & ~is_known] = np.nan
+    found = sheared(heights, tmp_path, 0.1)
+    assert found.on_filled[0] > 0.1
+    assert found.answers["cycle_energy"].low is None
+    (told,) = (each for each in found.facts if each.kind == "shear_left_open")
+    assert "much of the force stands on filled points" in str(told)

@@ -16,7 +16,6 @@ from roughline.engineering.rules.mechanical import (
     INTERFACE_STIFFNESS,
     UNLOADING_STIFFNESS,
 )
-from roughline.engineering.slip import COUPLED_FROM, excess_of_coupled
 from roughline.facts.fact import Fact, by_weight
 from roughline.facts.listed import MOST_NAMED
 from roughline.margins.border_of_flow import COUNTED_RATIO, what_borders_do
@@ -152,14 +151,13 @@ def _on_shear(result: Assessment) -> Iterator[Fact]:
     if sheared is None:
         yield Fact("shear_not_solved", interrupted=result.interrupted).grave()
         return
-    beta = 0.0 if question.pair is None else abs(question.pair.beta)
-    if beta > COUPLED_FROM and not sheared.curve.half_space.is_coupled:
-        excess = excess_of_coupled(beta, sheared.friction)
-        yield Fact("yielding_bodies_uncoupled", beta=beta, excess=excess)
     of_shear = [each for each in result.answers.values() if each.rule in SHEAR_ANSWERS]
-    unknown = (each for answer in of_shear for each in answer.margins if not each.factor[-1] >= 1)
-    if titles := tuple(dict.fromkeys(each.title for each in unknown)):
-        yield Fact("shear_left_open", causes=titles).concerning(*(each.key for each in of_shear))
+    margins = (each for answer in of_shear for each in answer.margins)
+    unknown = {each.cause: each.title for each in margins if not each.factor[-1] >= 1}
+    if unknown:
+        why = {name: name in unknown for name in ("place", "filling", "grid")}
+        fact = Fact("shear_left_open", causes=tuple(unknown.values()), **why)
+        yield fact.concerning(*(each.key for each in of_shear))
 
 
 def _on_wide_intervals(result: Assessment) -> Iterator[Fact]:

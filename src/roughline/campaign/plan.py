@@ -237,11 +237,6 @@ class Ensemble:
             self._refuse('friction is given, and a plan has it of surfaces: take model = "full"')
         if self.law is not None:
             self._refuse("friction of bodies that stick is not solved: leave law out")
-        if self.hardness_bar is not None and self.pressed_into.is_coupled:
-            self._refuse(
-                "friction of coupled bodies that yield is not solved: leave hardness_bar out, "
-                "or beta"
-            )
         if shears is None:
             self._refuse(
                 "friction is given without shear_bars: give a shear force Q / (E* h L) "

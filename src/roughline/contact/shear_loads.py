@@ -75,7 +75,7 @@ class GivenShear:
             refuse("friction", self.friction, "an rl.Friction is needed, such as rl.Friction(0.3)")
         if self.shear_forces is not None and self.slides is not None:
             raise InputError("shear_forces and slides are given; give one of the two")
-        _refuse_law(law, half_space)
+        _refuse_law(law)
         refuse_unknown_shear(half_space)
         self.friction.refuse_other_grids(shape)
         name: Literal["shear_forces", "slides"] = (
@@ -125,18 +125,12 @@ class GivenShear:
             )
 
 
-def _refuse_law(law: ContactLaw, half_space: HalfSpace) -> None:
-    """Refuse bodies that stick to each other, and bodies of two materials that yield."""
-    friction = called("friction")
+def _refuse_law(law: ContactLaw) -> None:
+    """Refuse bodies that stick to each other."""
     if law.memory == "path":
         raise InputError(
-            f"friction of bodies that stick to each other is not solved: leave {friction} out, or "
-            "the law"
-        )
-    if law.memory == "dents" and half_space.is_coupled:
-        raise InputError(
-            "friction of bodies that yield and whose pressure displaces them along the surface "
-            f"(beta is not 0) is not solved: leave the hardness out, or {friction}; or take beta=0"
+            "friction of bodies that stick to each other is not solved: leave "
+            f"{called('friction')} out, or the law"
         )
 
 

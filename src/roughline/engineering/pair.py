@@ -16,7 +16,7 @@ from roughline.engineering.material import Material
 from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.facts.fact import Fact
-from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
+from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic, Rigid
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 
 
@@ -65,14 +65,8 @@ class MaterialPair:
             surfaces = (self.first.surface, self.second.surface)
             n = self.E_star / 2 * sum(each.nu / each.shear_modulus for each in surfaces)
             return Homogeneous(self.E_star, periodic, n / (1 + n), self.beta)
-        elastic = [each for each in (self.second, self.first) if not math.isinf(each.surface.E)]
-        bodies = [
-            each.half_space(periodic=periodic)
-            if isinstance(each, Coated)
-            else Homogeneous.of(each.E, each.nu, periodic=periodic)
-            for each in elastic
-        ]
-        return functools.reduce(operator.add, bodies)
+        second, first = _sheared(self.second, periodic), _sheared(self.first, periodic)
+        return second if isinstance(first, Rigid) else second + first
 
     @property
     def beta(self) -> float:
@@ -246,6 +240,14 @@ def contact_modulus(first: Material, second: Material) -> float:
     89.9 GPa
     """
     return _inverse_sum((1 - each.nu**2) / each.E for each in (first, second))
+
+
+def _sheared(body: Solid, periodic: Periodic) -> HalfSpace:
+    """Return a body as it is pressed and sheared."""
+    if isinstance(body, Coated):
+        return body.half_space(periodic=periodic)
+    rigid = math.isinf(body.E)
+    return Rigid(periodic) if rigid else Homogeneous.of(body.E, body.nu, periodic=periodic)
 
 
 def _inverse_sum(compliances: Iterable[float]) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -47,9 +48,11 @@ class FilledPoints(OtherBodies):
         """Whether points were missing."""
         return bool(case.filled)
 
-    def sheared(self, case: Case, asked: ShearedBody) -> ShearedBody | None:
-        """None: what stands on filled points, and slips there, is not known."""
-        return None
+    def sheared(self, case: Case, asked: ShearedBody) -> ShearedBody:
+        """The body filled otherwise, unless much of the force stands on what nobody measured."""
+        other = self.body(case, 0)
+        same = np.array_equal(other.heights, asked.body.heights)  # as where a file came filled
+        return replace(asked, body=asked.body if same else other, tells=_stands_on_measured)
 
     def more(self, curves: Curves) -> Real | float:
         """What force that stands on filled points leaves open, relative to the values. [1]"""
@@ -107,6 +110,15 @@ def force_on_filled(curves: Curves) -> Real | None:
     curve = curves.get(AS_ASKED)
     filled = None if curve is None else curve.measured.get(_ON_FILLED)
     return None if filled is None else filled.values
+
+
+def _stands_on_measured(curves: Curves) -> bool:
+    """Whether so little of the force stands on filled points that it is as if it stood on others.
+
+    Where more of it does, what slips there is not known.
+    """
+    share = force_on_filled(curves)
+    return share is not None and not (share > _SHARE_IN_INTERVALS).any()
 
 
 def _relative_error(share: Real) -> Real:

@@ -78,7 +78,7 @@ class FinerGrid(Cause):
         Where other causes leave the same open and are not known, it would not tell how far.
         """
         body, question = asked.body, case.question
-        is_known = question.joint is None and not case.filled and not broken("grid", body)
+        is_known = question.joint is None and not broken("grid", body)
         if not (case.loads.grid_error and is_known) or question.coated:
             return None
         return replace(asked, body=halved(body))

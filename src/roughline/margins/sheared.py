@@ -24,6 +24,10 @@ SHEARED = "sheared"
 _PLAIN = "without shear"  # under the forces of Jäger's stick areas
 
 
+def _always(curves: Curves) -> bool:
+    return True
+
+
 @dataclass(frozen=True, eq=False)
 class ShearedBody:
     """A body, and the path along which it is sheared."""
@@ -34,6 +38,7 @@ class ShearedBody:
     """The path as asked may be off by so many times its distance from this one."""
 
     by_micro_slip: bool = False  # and what follows from slip at least by that of the micro-slip
+    tells: Callable[[Curves], bool] = _always  # whether it does, as the curves of its load say
 
     @classmethod
     def of(cls, case: Case) -> ShearedBody | None:
@@ -127,9 +132,11 @@ def _variant(
 
 
 def _along(case: Case, sheared: ShearedBody, curves: Curves) -> LoadCase | None:
-    """A body along its path; None where the load was not solved."""
+    """A body along its path; None where the load was not solved, or where it tells nothing."""
     force = _force(case, curves)
-    return None if force is None else sheared.path.on(sheared.body, case, force)
+    if force is None or not sheared.tells(curves):
+        return None
+    return sheared.path.on(sheared.body, case, force)
 
 
 def _without_shear(case: Case, path: ShearPath, curves: Curves) -> LoadCase | None:

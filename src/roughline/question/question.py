@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeVar
 
@@ -25,7 +24,6 @@ from roughline.errors.public import public
 from roughline.errors.words import called
 from roughline.facts.fact import Fact
 from roughline.halfspace.elasticity.half_space import HalfSpace, Periodic
-from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.friction.law import Friction
 from roughline.question.arguments import (
     bodies,
@@ -316,16 +314,9 @@ class Question:
 
     @property
     def sheared_half_space(self) -> HalfSpace | None:
-        """What both bodies are sheared as; None without materials.
-
-        Bodies that yield are sheared as if pressure moved them along each other nowhere.
-        """
-        if self.pair is None:
-            return None
-        half_space = self.pair.sheared_half_space(periodic=self.repeated_along)
-        if self._yields and isinstance(half_space, Homogeneous):
-            return replace(half_space, beta=0.0)
-        return half_space
+        """What both bodies are sheared as; None without materials."""
+        pair = self.pair
+        return None if pair is None else pair.sheared_half_space(periodic=self.repeated_along)
 
     @property
     def modulus(self) -> float:
@@ -409,14 +400,6 @@ class Question:
         scale = self.loading.scale(area)
         shear.refuse_beyond(self.shear_on(area) * scale, pressing * scale, friction)
         refuse_unknown_shear(self.sheared_half_space)
-        if self._yields and self.sheared_half_space.is_coupled:
-            raise InputError(
-                "coated bodies that yield and are sheared are not solved: take them as elastic "
-                f"({called('elastic', True)}), or leave {called('rl.Shear')} out",
-                None,
-                "shear",
-                "elastic",
-            )
 
     def _refuse_line(self, line: Line) -> None:
         """Refuse what belongs to a surface."""

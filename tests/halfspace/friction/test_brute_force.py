@@ -112,10 +112,11 @@ def test_friction_may_differ_from_point_to_point_and_have_a_strength():
         (14, (8, 7), (1.0, 1.0), True, 0.4),
     ],
 )
-def test_bodies_that_yield_follow_brute_force(seed, shape, spacing, periodic, share):
-    """The hardness is some share of the largest elastic pressure."""
+@pytest.mark.parametrize("beta", [0.0, ONE_SIDED, -0.5])
+def test_bodies_that_yield_follow_brute_force(seed, shape, spacing, periodic, share, beta):
+    """The hardness is some share of the largest elastic pressure; dents are those of all loads."""
     surface, separation, depths, slides = random_case(seed, shape, spacing, periodic=periodic)
-    body = rl.Homogeneous(1.0, periodic, poisson=0.3)
+    body = rl.Homogeneous(1.0, periodic, poisson=0.3, beta=beta)
     elastic = rl.press(surface, half_space=body, depths=depths).largest_pressure
     hardness = share * elastic.max()
     curve = rl.press(
@@ -129,10 +130,15 @@ def test_bodies_that_yield_follow_brute_force(seed, shape, spacing, periodic, sh
         **TIGHT,
     )
     assert (curve.plastic_fraction > 0).sum() > 1
-    matrix = dense_matrix(shape, spacing, n=3 / 7, beta=0.0, periodic=periodic)
+    matrix = dense_matrix(shape, spacing, n=3 / 7, beta=beta, periodic=periodic)
     path = DensePath(matrix, separation, 0.3, hardness=hardness)
-    for depth, slide, fields in zip(depths, slides, curve.fields, strict=True):
+    loads = zip(depths, slides, curve.fields, curve.dents, strict=True)
+    for depth, slide, fields, dents in loads:
         expected = path.to(depth, slide).traction
         found = fields.shear.reshape(-1, 2).T
         assert fields.pressure.ravel() == pytest.approx(expected[2], abs=SAME * hardness)
         assert found == pytest.approx(expected[:2], abs=SAME * hardness)
+        deep = np.zeros(separation.size)
+        if dents is not None:
+            deep[dents.nodes] = dents.depth
+        assert deep == pytest.approx(path.separation - separation.ravel(), abs=1e-8 * depths.max())

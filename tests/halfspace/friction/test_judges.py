@@ -343,8 +343,9 @@ def test_what_slips_on_is_what_slips_in_a_small_further_step(hardness, first, sh
     assert 0.01 < slips[known].mean() < 0.6
 
 
+@pytest.mark.parametrize("hardness", [None, HARDNESS])
 @pytest.mark.parametrize(("angle", "beta"), [(0.0, 2 / 7), (20.0, 0.5), (180.0, 2 / 7)])
-def test_tangents_of_two_materials_are_those_of_small_steps(angle, beta):
+def test_tangents_of_two_materials_are_those_of_small_steps(angle, beta, hardness):
     surface, small, force = rough(16), 1e-6, 0.02
     last, turn = np.array([4e-4, 1e-4]), np.deg2rad(angle)
     turned = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
@@ -355,15 +356,54 @@ def test_tangents_of_two_materials_are_those_of_small_steps(angle, beta):
         friction=rl.Friction(MU),
         forces=[force] * 4,
         slides=[(0, 0), 4 * last, 5 * last, 5 * last + way],
+        hardness=hardness,
         rtol=1e-11,
         solver=rl.Solver(precision="float64"),
     )
     assert 0.05 < curve.stick_fraction[2] < 0.95
+    assert hardness is None or curve.plastic_fraction[2] > 0.02
     tangent = (curve.shear_stiffness if angle < 90 else curve.shear_stiffness_back)[2]
     change = curve.shear_force[3] - curve.shear_force[2]
     assert change == pytest.approx(tangent @ way, abs=3e-3 * small * tangent[0, 0])
     back = curve.shear_stiffness_back  # Betti: where all sticks each way answers the other alike
     assert back == pytest.approx(back.transpose(0, 2, 1), abs=1e-12 * tangent[0, 0])
+
+
+@pytest.mark.parametrize("hardness", [None, HARDNESS])
+@pytest.mark.parametrize("beta", [0.0, 2 / 7])
+def test_bodies_that_come_apart_bear_nothing_and_come_again(beta, hardness):
+    curve = rl.press(
+        rough(16),
+        half_space=rl.Homogeneous(1.0, poisson=0.3, beta=beta),
+        friction=rl.Friction(MU),
+        hardness=hardness,
+        forces=[0.02, 0.0, 0.005],
+        shear_forces=[1e-3, 0.0, 5e-4],
+    )
+    assert curve.force == pytest.approx([0.02, 0.0, 0.005])
+    assert curve.area_fraction[1] == 0
+    assert np.isfinite(curve.slide).all()
+    assert (curve.depth[1] > 0) == (hardness is not None)
+
+
+@pytest.mark.parametrize("beta", [0.0, 2 / 7, 0.5])
+@pytest.mark.parametrize("more", [1, -1])
+def test_stiffness_of_two_materials_that_yield_is_that_of_small_steps(beta, more):
+    """On more load nodes at the hardness follow no further, on less they do."""
+    force, small = 0.02, 1e-6
+    curve = rl.press(
+        rough(16),
+        half_space=rl.Homogeneous(1.0, poisson=0.3, beta=beta),
+        friction=rl.Friction(MU),
+        hardness=HARDNESS,
+        forces=[0.99 * force, force, force * (1 + more * small)],
+        rtol=1e-12,
+        solver=rl.Solver(precision="float64"),
+    )
+    assert curve.plastic_fraction[1] > 0.1
+    stiffness = (curve.stiffness if more > 0 else curve.unloading_stiffness)[1]
+    expected = np.diff(curve.force)[1] / np.diff(curve.depth)[1]
+    assert stiffness == pytest.approx(expected, rel=1e-3)
 
 
 @pytest.mark.parametrize("beta", [0.0, 2 / 7])

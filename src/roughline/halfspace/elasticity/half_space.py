@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, Literal
@@ -436,6 +437,38 @@ class TwoBodies(HalfSpace):
     def in_units(self, pressure: float, length: float) -> TwoBodies:
         """Return the same half-spaces in other units."""
         return TwoBodies(*(each.in_units(pressure, length) for each in (self.first, self.second)))
+
+
+@dataclass(frozen=True)
+class Rigid(HalfSpace):
+    """A body that nothing displaces: one that faces it as the second of two is mirrored."""
+
+    periodic: Periodic = False
+    E_star: float = math.inf
+    is_pushed_everywhere: bool = True
+
+    def spectrum(self, q: Real) -> Real:
+        """Return zeros."""
+        return np.zeros_like(q)
+
+    def kernel(self, first: int, spacing: tuple[float, float], rows: Real) -> None:
+        """Fill rows with zeros."""
+        rows[:] = 0.0
+
+    def shear_spectrum(self, q: Real) -> tuple[Real, Real]:
+        """Return zeros."""
+        return np.zeros_like(q), np.zeros_like(q)
+
+    def shear_kernel(
+        self, first: int, spacing: tuple[float, float], rows: tuple[Real, Real, Real]
+    ) -> None:
+        """Fill rows with zeros."""
+        for each in rows:
+            each[:] = 0.0
+
+    def in_units(self, pressure: float, length: float) -> Rigid:
+        """Return itself."""
+        return self
 
 
 @dataclass(frozen=True, repr=False)

@@ -76,6 +76,11 @@ class Rates:
     excess: Real  # of the shear outward beyond what nodes bear, shape (nodes,)
 
 
+def rate_rounding(rates: Real) -> float:
+    """Return up to which size rates of nodes are zero."""
+    return _RATE_ROUNDING * float(np.abs(rates).max(initial=0.0))
+
+
 def slip_on(rim: Rim, rates: Callable[[Mask], Rates | None]) -> Mask:
     """Return which nodes slip on; those of full shear, as far as rates are not known."""
     slips = rim.full.copy()
@@ -83,8 +88,7 @@ def slip_on(rim: Rim, rates: Callable[[Mask], Rates | None]) -> Mask:
         found = rates(slips)
         if found is None:
             break
-        least = _RATE_ROUNDING * float(np.abs(found.slip).max(initial=0.0))
-        most = _RATE_ROUNDING * float(np.abs(found.excess).max(initial=0.0))
+        least, most = rate_rounding(found.slip), rate_rounding(found.excess)
         wrong = np.where(slips, found.slip < -least, rim.may_slip & (found.excess > most))
         if not wrong.any():
             break

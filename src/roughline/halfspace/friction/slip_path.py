@@ -38,7 +38,7 @@ from roughline.halfspace.friction.vectors import on_nodes, within
 from roughline.halfspace.inverse.approximate_inverse import preconditioner
 from roughline.halfspace.inverse.cache import inverse_on
 from roughline.halfspace.operators.grid_nodes import GridNodes
-from roughline.halfspace.operators.restricted_shear import RestrictedShear, is_uniform
+from roughline.halfspace.operators.restricted_shear import RestrictedShear
 from roughline.halfspace.operators.shear import ShearConvolution, at_origin, shear_on_grid
 from roughline.halfspace.search.path import LoadPath
 from roughline.halfspace.search.problem import Contact, Load, Method, Outcome, Problem
@@ -127,7 +127,7 @@ class _Bodies:
     def restricted(self, nodes: GridNodes) -> RestrictedShear | None:
         """Return how shear displaces them roughly, if that costs less on some nodes."""
         grid, forms = self.problem.grid, self.problem.grid.inverse.restricted
-        ratios = forms.ratios(nodes) if is_uniform(grid.half_space) else None
+        ratios = forms.ratios(nodes)
         if ratios is None:
             return None
         if ratios not in self._made:
@@ -192,19 +192,23 @@ class SlidePath:
             start = found.contact.contact_set
             lift = self._lift(last.contact.nodes, found.shear, everywhere)
         before = None if last is None else self._moved_by(last, everywhere)
+        left = problem if last is None else last.contact.problem  # by the loads so far
         rtol, error, step = self._method.rtol, 1.0, None
         for _ in range(_MOST_ALTERNATIONS):
             aim = max(rtol, min(_ROUGHEST_TURN, _TURN_SHARE * error))
             method = replace(self._method, rtol=aim)
-            bodies = replace(problem, separation=problem.separation + lift)
-            contact, window = self._path.settled_from(start, bodies, load, method)
+            lifted = replace(problem, separation=left.separation + lift)
+            contact, window = self._path.settled_from(start, lifted, load, method)
             convolutions += contact.convolutions
             contact = replace(contact, load=load)
             if contact.outcome is not Outcome.CONVERGED:
                 return _unknown(contact, contact.outcome)
+            dented = left.separation + (contact.separation - lifted.separation)
+            unlifted = replace(contact, problem=replace(left, separation=dented))
             if not contact.nodes.size:
-                return _apart(replace(contact, problem=problem), shear, last)
-            step = _SlideStep(self._bodies, contact, last, (found, before, step), aim)
+                answer = response(contact, window, None, self._method)
+                return _apart(replace(unlifted, response=answer), shear, last)
+            step = _SlideStep(self._bodies, unlifted, last, (found, before, step), aim)
             found = step.under(shear)
             convolutions += step.convolutions
             if found.outcome is not Outcome.CONVERGED:
@@ -219,8 +223,7 @@ class SlidePath:
         answer = response(contact, window, None, self._method)
         residuals = contact.residuals
         contact = replace(
-            contact,
-            problem=problem,
+            unlifted,
             looked_at=None,
             gaps=(contact.gap + change).ravel(),
             residuals=replace(
@@ -231,13 +234,8 @@ class SlidePath:
         tangents, stiffness = step.coupled_tangents(found)
         contact = replace(contact, response=_with_stiffness(answer, stiffness))
         convolutions += answer.convolutions + tangents.convolutions
-        return replace(
-            found,
-            contact=contact,
-            convolutions=convolutions,
-            sticks=tangents.sticks,
-            tangents=tangents,
-        )
+        found = replace(found, sticks=tangents.sticks, tangents=tangents)
+        return replace(found, contact=contact, convolutions=convolutions)
 
     def _led(self, last: Slid, load: Load, shear: ShearLoad) -> Slid:
         """Return about the state under the next load: the last, led along its tangent."""

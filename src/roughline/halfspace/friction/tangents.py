@@ -22,7 +22,7 @@ import numpy as np
 from roughline.computing.arrays import InGrid, Mask, Real, Single
 from roughline.computing.krylov import least_residual
 from roughline.halfspace.friction.discs import Linear
-from roughline.halfspace.friction.rates import Going, Rates, Rim, slip_on
+from roughline.halfspace.friction.rates import Going, Rates, Rim, rate_rounding, slip_on
 from roughline.halfspace.friction.vectors import followed, inner, on_nodes
 from roughline.halfspace.inverse.approximate_inverse import preconditioner
 from roughline.halfspace.operators.grid_nodes import GridNodes
@@ -235,12 +235,15 @@ def coupled_tangents(
     rates = _CoupledRates(maps, contact, rim, going, method.rtol)
     back = rates.ways(nobody, begun[1])
     rates.start = back if begun[0] is None else begun[0].moved(begun[1], back)
-    slips = slip_on(rim, rates.of) if rim.may_slip.any() else nobody
-    on = rates.ways(slips) if slips.any() else back
+    slips = rates.slips_on()
+    on = rates.ways(slips) if slips.any() or rates.yielding.any() else back
     (along_on, normal_on), (along_back, normal_back) = (
         _condensed(on.totals),
         _condensed(back.totals),
     )
+    if rates.yielding.sum() < contact.plastic.sum():  # under more load all of them yield on
+        rates.yielding = contact.plastic
+        _, normal_on = _condensed(rates.ways(slips).totals)
     both = (on, back) if np.isfinite([on.totals, back.totals]).all() else None
     tangents = ShearTangents(~slips, along_on, along_back, rates.spent, coupled=both)
     return tangents, (normal_on, normal_back)
@@ -255,18 +258,38 @@ class _CoupledRates:
         self._maps, self._contact, self._rim, self._going = maps, contact, rim, going
         self._rtol, self.spent = rtol, 0
         self.start: UnitWays | None = None
-        self._known: tuple[Mask, Real, UnitWays] | None = None
+        self.yielding = np.zeros_like(rim.full)  # nodes at the hardness that bear no more
+        self._known: tuple[Real, Real, UnitWays] | None = None
+        self._goes_on_wrong = np.zeros_like(rim.full)
 
     def ways(self, slips: Mask, start: UnitWays | None = None) -> UnitWays:
         """Return pressures and shear by unit slides and a unit approach where some nodes slip."""
-        if self._known is None or (self._known[0] != slips).any():
-            stuck = _CoupledStuck(self._maps, self._contact, self._rim, slips)
+        sets = np.array([slips, self.yielding])
+        if self._known is None or (self._known[0] != sets).any():
+            stuck = _CoupledStuck(self._maps, self._contact, self._rim, slips, self.yielding)
             form, tractions = stuck.stiffness(self._rtol, start or self.start)
             self.spent += 7 * stuck.products
             totals = self._contact.problem.grid.cell_area * form
             ways = UnitWays(self._contact.nodes, tractions.astype(np.float32), totals)
-            self._known, self.start = (slips.copy(), tractions, ways), ways
+            self._known, self.start = (sets, tractions, ways), ways
         return self._known[2]
+
+    def slips_on(self) -> Mask:
+        """Return which nodes slip on, and find those that yield on: the dents of these grow.
+
+        A node at the hardness that yields no more must bear less.
+        """
+        self.yielding, slips = self._contact.plastic.copy(), self._rim.full & False
+        for _ in range(_MOST_TURNS):
+            self._goes_on_wrong[:] = False
+            if self._rim.may_slip.any():
+                slips = slip_on(self._rim, self.of)
+            elif self.yielding.any():
+                self.of(slips)
+            if not self._goes_on_wrong.any():
+                break
+            self.yielding = self.yielding ^ self._goes_on_wrong
+        return slips
 
     def of(self, slips: Mask) -> Rates | None:
         """Return how nodes go on where some slip; None if nothing goes on, or it is not solved."""
@@ -278,7 +301,13 @@ class _CoupledRates:
         both = self._known[1] @ moved
         shear, pressure = np.ascontiguousarray(both[:, :2]), both[:, 2].copy()
         self.spent += 7
-        _, there = self._maps.displaced(pressure, shear)
+        into, there = self._maps.displaced(pressure, shear)
+        dents, plastic = moved[2] - into, self._contact.plastic
+        self._goes_on_wrong = np.where(
+            self.yielding,
+            dents < -rate_rounding(dents),
+            plastic & (pressure > rate_rounding(pressure)),
+        )
         slip = self._rim.along(moved[:2] - there)
         return Rates(slip, self._rim.along(shear) - self._rim.slope * pressure)
 
@@ -300,7 +329,9 @@ def _condensed(matrix: Real) -> tuple[Real, float]:
     """
     along, normal = matrix[:2, :2], float(matrix[2, 2])
     of_depth, of_slide = matrix[:2, 2], matrix[2, :2]
-    held = along - np.outer(of_depth, of_slide) / normal
+    held = along
+    if normal:  # else all nodes yield on, and bear no more in any case
+        held = along - np.outer(of_depth, of_slide) / normal
     if not np.isfinite(matrix).all():
         return held, np.nan
     slide = np.linalg.lstsq(along, of_depth, rcond=_NOTHING_RESISTS)[0]
@@ -308,10 +339,13 @@ def _condensed(matrix: Real) -> tuple[Real, float]:
 
 
 class _CoupledStuck:
-    """A contact of coupled bodies, of which some nodes slip on."""
+    """A contact of coupled bodies, of which some nodes slip on, and some yield on."""
 
-    def __init__(self, maps: CoupledMaps, contact: Contact, rim: Rim, slips: Mask) -> None:
+    def __init__(
+        self, maps: CoupledMaps, contact: Contact, rim: Rim, slips: Mask, yielding: Mask
+    ) -> None:
         self._maps, self._contact, self._slips = maps, contact, slips
+        self._yielding = yielding
         self._outward = np.where(slips[:, np.newaxis], rim.outward, 0.0)
         self._slope, self.products = rim.slope, 0
         self._normal = preconditioner(contact.problem.grid.inverse, maps.nodes)
@@ -329,12 +363,17 @@ class _CoupledStuck:
         return self._product(unknown, self._maps.roughly_displaced)
 
     def _product(self, unknown: Real, moved: Callable[[Real, Real], tuple[Real, Real]]) -> Real:
-        """Return the displacements by pressure and shear, and what is left of the radial shear."""
-        pressure, free = self._apart(unknown)
+        """Return the displacements by pressure and shear, and what is left of the radial shear.
+
+        Of a node that yields on it is what is left of its pressure.
+        """
+        given, free = self._apart(unknown)
+        pressure = np.where(self._yielding, 0.0, given)
         radial = self._radial(free)
         shear = free - radial + self._outward * (self._slope * pressure)[:, np.newaxis]
         into, along = moved(pressure, shear)
         along = along + self._maps.diagonal * radial - self._radial(along)
+        into = np.where(self._yielding, self._maps.diagonal * given, into)
         return np.concatenate([into, along.ravel()])
 
     def _preconditioned(self, moved: Real) -> Real:
@@ -342,7 +381,9 @@ class _CoupledStuck:
         radial = self._radial(along)
         shear = self._maps.inverse(along - radial)
         shear += radial / self._maps.diagonal - self._radial(shear)
-        return np.concatenate([self._normal(into), shear.ravel()])
+        pressure = self._normal(np.where(self._yielding, 0.0, into))
+        pressure = np.where(self._yielding, into / self._maps.diagonal, pressure)
+        return np.concatenate([pressure, shear.ravel()])
 
     def _apart(self, both: Real) -> tuple[Real, Real]:
         count = self._slips.size
@@ -360,7 +401,7 @@ class _CoupledStuck:
         for axis in range(3):
             target = np.zeros(3 * count)
             if axis == 2:
-                target[:count] = 1.0
+                target[:count] = ~self._yielding
             else:
                 even = np.zeros((count, 2)) + np.eye(2)[axis]
                 target[count:] = (even - self._radial(even)).ravel()
@@ -369,6 +410,7 @@ class _CoupledStuck:
             if found is None:
                 continue
             pressure, free = self._apart(found[0])
+            pressure = np.where(self._yielding, 0.0, pressure)
             shear = free - self._radial(free)
             shear += self._outward * (self._slope * pressure)[:, np.newaxis]
             tractions[:, :2, axis], tractions[:, 2, axis] = shear, pressure

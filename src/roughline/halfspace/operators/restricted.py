@@ -70,7 +70,7 @@ class RestrictedOperator:
         spectrum = operator.spectrum[: kx.size, : ky.size]
         share = erfc(q * SMOOTHING_WIDTH * side / 2)
         spectrum = operator.spectrum[: kx.size, : ky.size]
-        steep, limit, rest = _split(operator, side, q)
+        steep, limit, rest = split_spectrum(operator, side, q)
         smooth = steep * share + rest
         # the spectrum of the near part goes on to q = 0, whatever the operator does with the mean
         smooth[0, 0] -= limit / (px * py) * SMOOTHING_WIDTH * side / np.sqrt(np.pi)
@@ -160,7 +160,7 @@ class RestrictedOperators:
         return next((each for each, share in self._ratios if part <= share), None)
 
 
-def _split(operator: Convolution, side: float, q: Real) -> tuple[Real, float, Real]:
+def split_spectrum(operator: Convolution, side: float, q: Real) -> tuple[Real, float, Real]:
     """Split a spectrum into one that falls as 1 / q, and the smooth part of the rest.
 
     Return the first at the waves of a coarse grid, its q C(q), and the second. Where the coarse
@@ -169,17 +169,22 @@ def _split(operator: Convolution, side: float, q: Real) -> tuple[Real, float, Re
     """
     half_space, (kx, ky) = operator.half_space, q.shape
     assert half_space is not None
-    longest = max(n * each for n, each in zip(operator.periods, operator.spacing, strict=True))
-    long_waves, spectrum = np.array([1e-3 * 2 * np.pi / longest]), operator.spectrum[:kx, :ky]
-    limit = 2 / float(half_space.modulus(long_waves)[0])
+    spectrum = operator.spectrum[:kx, :ky]
+    limit = 2 / float(half_space.modulus(np.array([longest_wave(operator)]))[0])
     if math.isclose(limit, 2 / half_space.E_star, rel_tol=1e-9):
         return spectrum, limit, np.zeros(q.shape)
     smooth = np.exp(-((q * side) ** 2) / 4)
-    if _resolves(half_space, side):
+    if resolves(half_space, side):
         limit, smooth = 2 / half_space.E_star, np.ones(q.shape)
     plain = Homogeneous(2.0, half_space.periodic)  # C(q) = 1 / q
     steep = on_grid(plain, operator.shape, operator.spacing).spectrum[:kx, :ky] * limit
     return steep, limit, (spectrum - steep) * smooth
+
+
+def longest_wave(operator: Convolution) -> float:
+    """Return the wavenumber of a wave far longer than the grid, which feels the base alone."""
+    longest = max(n * each for n, each in zip(operator.periods, operator.spacing, strict=True))
+    return 1e-3 * 2 * math.pi / longest
 
 
 def excess_compliance(half_space: HalfSpace, side: float) -> float:
@@ -190,7 +195,7 @@ def excess_compliance(half_space: HalfSpace, side: float) -> float:
     return half_space.E_star / float(half_space.modulus(np.array([np.pi / side]))[0]) - 1
 
 
-def _resolves(half_space: HalfSpace, side: float) -> bool:
+def resolves(half_space: HalfSpace, side: float) -> bool:
     """Whether a coarse grid resolves what waves feel beside the modulus of the surface."""
     return abs(excess_compliance(half_space, side)) < RESOLVED_EXCESS
 
@@ -211,7 +216,7 @@ def _ratios(operator: Convolution) -> list[tuple[tuple[int, int], float]]:
     resolving = [
         ((rx, ry), share)
         for (rx, ry), share in possible
-        if _resolves(half_space, max(rx * dx, ry * dy))
+        if resolves(half_space, max(rx * dx, ry * dy))
     ]
     return resolving or possible
 

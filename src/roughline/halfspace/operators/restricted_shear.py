@@ -6,6 +6,8 @@ the near part's spectrum is smooth at q = 0, and so its kernel falls fast, if wi
 share is erfc(x) for what waves of all directions have in common, erfc(x) + 2 x exp(-x²) / sqrt(pi)
 for what goes with twice their angle, and exp(-x²) for what goes with the angle, as pressure does.
 
+Of layers, the spectra of a homogeneous body are split so, and the rest is smooth as a whole.
+
 References
 ----------
 .. [1] H. Hasimoto, "On the periodic fundamental solutions of the Stokes equations and their
@@ -25,6 +27,7 @@ from roughline.computing import fft
 from roughline.computing.arrays import Floats, Indices, Integers, Real, Single
 from roughline.computing.compiled import compiled, compiled_sums
 from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.operators.coarse_grid import PaddedGrid, Splines, sharpened
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.even_sums import even_sums
@@ -33,8 +36,11 @@ from roughline.halfspace.operators.restricted import (
     NEAR_RADIUS,
     SMOOTHING_WIDTH,
     interpolate_row,
+    longest_wave,
+    resolves,
+    split_spectrum,
 )
-from roughline.halfspace.operators.shear import ShearConvolution
+from roughline.halfspace.operators.shear import ShearConvolution, shear_on_grid
 
 _EVEN_PARTS, _SKEW_PART, _ALONG_X, _ALONG_Y = (
     (False, False),
@@ -42,6 +48,8 @@ _EVEN_PARTS, _SKEW_PART, _ALONG_X, _ALONG_Y = (
     (True, False),
     (False, True),
 )
+_KINDS = [0, 1, 1, 2, 2]  # of spectra: what is common, goes with twice the angle, and with it
+_SHORT_WAVE = 1e3 * math.pi  # over the side of a coarse cell: it feels the surface alone
 _LAGS_AT_A_TIME = 4
 
 
@@ -77,20 +85,16 @@ class RestrictedShear:
         The other operator is that of pressures on the same grid.
         """
         split = _Split(operator, ratios)
-        mean, part, skew = (each[split.modes] for each in (exact.mean, exact.part, exact.skew))
-        common, twice, once = split.shares
-        mean, part = split.at_rest(mean * common, split.limits[0]), part * twice
+        (common, twice, once), (mean, part, skew, *towards) = split.shares, split.smooth(exact)
         parts = [
             split.made(exact.mean + exact.part, mean + part, _EVEN_PARTS, common),
             split.made(exact.mean - exact.part, mean - part, _EVEN_PARTS, common),
-            split.made(exact.skew, skew * twice, _SKEW_PART, twice),
+            split.made(exact.skew, skew, _SKEW_PART, twice),
         ]
         if exact.towards is not None:
-            for each, odd in zip(exact.towards, (_ALONG_X, _ALONG_Y), strict=True):
-                parts.append(split.made(each, each[split.modes] * once, odd, once))
-            into = operator.spectrum
-            smooth = split.at_rest(into[split.modes] * common, split.limits[1])
-            parts.append(split.made(into, smooth, _EVEN_PARTS, common))
+            axes = zip(exact.towards, towards, (_ALONG_X, _ALONG_Y), strict=True)
+            parts += [split.made(*each, once) for each in axes]
+            parts.append(split.made(operator.spectrum, split.smooth_into, _EVEN_PARTS, common))
         near, far = zip(*parts, strict=True)
         splines = Splines.of(operator, ratios)
         return cls(far, near, split.reach, splines, split.coarse, operator.shape, margins)
@@ -171,26 +175,57 @@ class _Split:
         side = max(rx * dx, ry * dy)
         self._waves = tuple(np.arange(n // 2 + 1) for n in self.coarse)
         kx, ky = self._waves
-        self.modes = slice(kx.size), slice(ky.size)
-        q = 2 * np.pi * np.hypot(kx[:, np.newaxis] / (px * dx), ky / (py * dy))
-        x = q * SMOOTHING_WIDTH * side / 2
-        common = erfc(x)
-        gauss, half_space = np.exp(-(x**2)), operator.half_space
-        assert half_space is not None
-        of_one = [float(each[0]) for each in half_space.shear_spectrum(np.ones(1))]
-        into = float(half_space.spectrum(np.ones(1))[0])
-        self.limits = sum(of_one) / 2, into  # of q times the mean spectrum of shear, of pressure
+        self._modes = slice(kx.size), slice(ky.size)
+        self._q = 2 * np.pi * np.hypot(kx[:, np.newaxis] / (px * dx), ky / (py * dy))
+        x = self._q * SMOOTHING_WIDTH * side / 2
+        common, gauss = erfc(x), np.exp(-(x**2))
         self.shares = common, common + 2 * x / math.sqrt(math.pi) * gauss, gauss
-        self._at_rest = SMOOTHING_WIDTH * side / math.sqrt(math.pi) / (px * py)
+        self._side, self._at_rest = side, SMOOTHING_WIDTH * side / math.sqrt(math.pi) / (px * py)
         radius = NEAR_RADIUS * side
         self._lags = np.arange(int(radius / dx) + 1), np.arange(int(radius / dy) + 1)
         self._inside = np.hypot(self._lags[0][:, np.newaxis] * dx, self._lags[1] * dy) <= radius
         self.reach = self._inside.sum(axis=1) - 1
 
-    def at_rest(self, smooth: Real, limit: float) -> Real:
-        """Take off what the near part has at q = 0, whatever the operator does with the mean."""
-        smooth[0, 0] -= self._at_rest * limit
-        return smooth
+    def smooth(self, exact: ShearConvolution) -> list[Real]:
+        """Return the far parts of the spectra of shear, and of pressure that moves along."""
+        common, twice, once = self.shares
+        steep, limit, rest = self._steep(exact)
+        shares = common, twice, twice, once, once
+        far = [e * share + f for e, share, f in zip(steep, shares, rest, strict=False)]
+        far[0][0, 0] -= self._at_rest * limit  # whatever the operator does with the mean
+        return far
+
+    @property
+    def smooth_into(self) -> Real:
+        """That of pressure that displaces into the body."""
+        steep, limit, rest = split_spectrum(self._operator, self._side, self._q)
+        far = steep * self.shares[0] + rest
+        far[0, 0] -= self._at_rest * limit
+        return far
+
+    def _steep(self, exact: ShearConvolution) -> tuple[list[Real], float, list[Real]]:
+        """Split spectra as :func:`split_spectrum` does that of pressure, and return the same.
+
+        Those that fall as 1 / q are of a homogeneous body, each times a factor of its own.
+        """
+        operator, side = self._operator, self._side
+        half_space, zero = operator.half_space, np.zeros(self._q.shape)
+        assert half_space is not None
+        spectra = [each[self._modes] for each in _spectra(exact)]
+        limits = _falling(half_space, longest_wave(operator))
+        at_surface = _falling(half_space, _SHORT_WAVE / side)
+        if np.abs(limits - at_surface).max() <= 1e-9 * at_surface[0]:
+            return spectra, float(limits[0]), [zero for _ in spectra]
+        smooth = np.exp(-((self._q * side) ** 2) / 4)
+        if resolves(half_space, side):
+            limits, smooth = at_surface, zero + 1
+        beta = 0.5 if half_space.is_coupled else 0.0
+        plain = Homogeneous(2.0, half_space.periodic, poisson=0.5, beta=beta)
+        alone = _spectra(shear_on_grid(plain, operator.shape, operator.spacing))
+        factors = limits / _falling(plain, 1.0)
+        steep = [f * each[self._modes] for f, each in zip(factors[_KINDS], alone, strict=False)]
+        rest = [(one - other) * smooth for one, other in zip(spectra, steep, strict=True)]
+        return steep, float(limits[0]), rest
 
     def made(
         self, spectrum: Real, smooth: Real, odd: tuple[bool, bool], share: Real
@@ -210,7 +245,7 @@ class _Split:
             )
         )
         # what the cut leaves out is smooth
-        left = spectrum[self.modes] - smooth - sign * (x @ near @ y.T) / (px * py)
+        left = spectrum[self._modes] - smooth - sign * (x @ near @ y.T) / (px * py)
         smooth = smooth + left * share
         for axis, is_odd in enumerate(odd):  # a wave that is its own opposite has no odd part
             if is_odd and self.coarse[axis] % 2 == 0:
@@ -232,11 +267,17 @@ class _Split:
         return modes, self.coarse[0] - modes
 
 
-def is_uniform(half_space: HalfSpace) -> bool:
-    """Whether all waves feel the same moduli, so that its spectra fall as 1 / q."""
-    q = np.array([1e-6, 1.0, 1e6])
-    spectra = (*half_space.shear_spectrum(q), half_space.coupling_spectrum(q))
-    return all(np.allclose(each * q, each[1], rtol=1e-9, atol=0) for each in spectra)
+def _spectra(exact: ShearConvolution) -> tuple[Real, ...]:
+    """Return the spectra of an operator: those of shear, and of pressure along the surface."""
+    return exact.mean, exact.part, exact.skew, *(exact.towards or ())
+
+
+def _falling(half_space: HalfSpace, wave: float) -> Real:
+    """Return q times the mean, half the difference, and the coupling of a wavenumber q."""
+    q = np.array([wave])
+    along, across = half_space.shear_spectrum(q)
+    both = (along + across) / 2, (along - across) / 2, half_space.coupling_spectrum(q)
+    return wave * np.concatenate(both)
 
 
 @compiled
