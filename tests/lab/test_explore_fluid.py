@@ -6,14 +6,18 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from lab.test_explore import (
+from lab.explore_asked import (
     E_STAR,
+    HARDNESS,
     HEIGHT,
     LENGTH,
+    SCALE,
     SMALL,
+    YIELDING,
     answer,
     loads,
     numbers_in,
+    said,
 )
 from lab.unpacked import HALF_A_STEP
 from roughline.lab.controls import ControlError
@@ -21,7 +25,6 @@ from roughline.lab.explore import code, pictures
 from roughline.lab.explore.reading import read_state
 from roughline.question.loading import UNLOADING
 
-SCALE = E_STAR * HEIGHT * LENGTH
 FLOWS = {**SMALL, "fluid": "x"}
 SEALED = {**FLOWS, "F": "9"}
 APERTURE = rl.hydraulic_aperture("x")
@@ -34,18 +37,8 @@ def surface():
 
 @pytest.fixture(scope="module")
 def curve(surface):
-    return rl.press(
-        surface,
-        E_star=E_STAR,
-        forces=[0.2 * SCALE],
-        fields=True,
-        measures=[APERTURE],
-        grid_error=True,
-    )
-
-
-def said(header):
-    return {item["key"]: item for item in header["strip"]}
+    asked = {"forces": [0.2 * SCALE], "measures": [APERTURE]}
+    return rl.press(surface, E_star=E_STAR, fields=True, grid_error=True, **asked)
 
 
 def test_without_the_tick_no_flow_is_computed(monkeypatch):
@@ -54,9 +47,8 @@ def test_without_the_tick_no_flow_is_computed(monkeypatch):
 
     monkeypatch.setattr(rl, "flow", none)
     monkeypatch.setattr(rl, "theory", none)
-    yields = {**SMALL, "hardness_bar": "0.3"}
     for task in (pictures.coarse, pictures.full, pictures.curve, pictures.further):
-        header, arrays = answer(task, yields, of="hardness_bar")
+        header, arrays = answer(task, YIELDING, of="hardness_bar")
         assert "aperture" not in header["panels"]
         assert "flux" not in arrays
     with pytest.raises(ControlError) as refused:
@@ -147,14 +139,9 @@ def test_a_gap_that_no_load_seals_says_so():
 
 
 def test_the_way_back_has_its_apertures(surface):
-    header, _ = answer(pictures.further, {**FLOWS, "hardness_bar": "0.3"}, of="hardness_bar")
-    pressed = rl.press(
-        surface,
-        E_star=E_STAR,
-        hardness=0.3 * E_STAR * surface.rms_slope,
-        forces=0.2 * SCALE * np.array([1, *UNLOADING]),
-        measures=[APERTURE],
-    )
+    header, _ = answer(pictures.further, {**YIELDING, "fluid": "x"}, of="hardness_bar")
+    asked = {"hardness": HARDNESS, "forces": 0.2 * SCALE * np.array([1, *UNLOADING])}
+    pressed = rl.press(surface, E_star=E_STAR, measures=[APERTURE], **asked)
     wanted = pressed.measured["hydraulic_aperture_x"].values / HEIGHT
     _, found = loads(header, "aperture", "back")
     np.testing.assert_allclose(found[::-1], wanted[:-1], rtol=1e-9)  # no force has no place
@@ -175,15 +162,8 @@ def test_a_load_that_is_not_solved_has_no_flow(monkeypatch):
     assert list(arrays) == []
 
 
-def test_another_word_is_refused_at_the_tick():
-    with pytest.raises(ControlError) as refused:
-        read_state({"fluid": "z"})
-    assert refused.value.at == "fluid"
-
-
-def test_as_python_gives_the_aperture_and_the_command_says_that_it_does_not(curve, capsys):
-    exec(answer(code.code, FLOWS, which="python")[0]["text"], {})
-    lines = capsys.readouterr().out.splitlines()
+def test_as_python_gives_the_aperture_and_the_command_says_that_it_does_not(curve, ran):
+    lines = ran(FLOWS, "python")
     wanted = rl.flow(curve.fields[0]).hydraulic_aperture / HEIGHT
     found = float(lines[3].removeprefix("hydraulic aperture over rms height "))
     assert found == pytest.approx(wanted, rel=1e-9)
