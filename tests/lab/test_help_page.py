@@ -13,28 +13,22 @@ def page(tab):
     return opened
 
 
-def is_told(page):
-    """Return whether the meaning of the fractal dimension is seen."""
-    return page.evaluate(
-        """() => {
-            const told = document.querySelector("#explore-D_f-meaning");
-            return told.offsetHeight > 0 && getComputedStyle(told).visibility === "visible";
-        }"""
-    )
+TOLD = """() => {
+    const told = document.querySelector("#explore-D_f-meaning");
+    return told.offsetHeight > 0 && getComputedStyle(told).visibility === "visible";
+}"""
 
 
 def until(page, wanted):
     """Wait until the help is there, or gone."""
-    told = "document.querySelector('#explore-D_f-meaning')"
-    seen = f"({told}.offsetHeight > 0 && getComputedStyle({told}).visibility === 'visible')"
-    page.wait_for_function(f"() => {seen} === {str(wanted).lower()}")
+    page.wait_for_function(f"() => ({TOLD})() === {str(wanted).lower()}")
 
 
 def test_help_comes_after_a_while_under_its_control_and_never_while_a_button_is_down(page):
     slider = page.locator("#explore-D_f")
     place = slider.bounding_box()
     slider.hover()
-    assert not is_told(page)
+    assert not page.evaluate(TOLD)
     until(page, True)
     assert slider.bounding_box() == place
     help_line = page.locator("#explore-D_f-meaning").bounding_box()
@@ -43,7 +37,7 @@ def test_help_comes_after_a_while_under_its_control_and_never_while_a_button_is_
     page.mouse.down()
     until(page, False)
     page.mouse.move(place["x"] + 90, place["y"] + place["height"] / 2)
-    assert not is_told(page)
+    assert not page.evaluate(TOLD)
     page.mouse.up()
 
 
