@@ -79,6 +79,16 @@ def sentence(page, key, view="explore"):
     return page.locator(f'#{view} [data-error="{key}"]')
 
 
+def save(page, name, folder):
+    """Save something by the button; return where it is."""
+    page.select_option("#saved", name)
+    with page.expect_download() as coming:
+        page.click("#save")
+    assert coming.value.suggested_filename == name
+    coming.value.save_as(folder / name)
+    return folder / name
+
+
 def put(page, name, **attributes):
     """Set attributes of what Bokeh has by a name, as its tools do."""
     page.evaluate(

@@ -22,6 +22,7 @@ from lab.explore_asked import (
 from lab.unpacked import HALF_A_STEP
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import code, pictures
+from roughline.lab.explore.controls import NUMBERS
 from roughline.lab.explore.reading import read_state
 from roughline.question.loading import UNLOADING
 
@@ -131,6 +132,16 @@ def test_apertures_over_the_load_and_theories_are_those_of_the_library(surface):
         assert theory.validity in panel["remarks"]
     rows = {tuple(row[1:]) for row in panel["rows"]}
     assert {("sealed", "3D"), ("sealed", "critical junction"), ("sealed", "Bruggeman")} <= rows
+
+
+@pytest.mark.parametrize("key", ["F", "D_f", "roll_off"])
+def test_it_flows_at_both_ends_of_every_slider(key):
+    for end in (NUMBERS[key].low, NUMBERS[key].high):
+        state = {"n": "128", "F": "0.2", "fluid": "x", key: f"{end:g}"}
+        header, _ = answer(pictures.full, state)
+        assert header["refused"] == {}
+        assert "aperture" in said(header)
+        assert answer(pictures.further, state, of="fluid")[0]["panels"]["aperture"]["rows"]
 
 
 def test_a_gap_that_no_load_seals_says_so():
