@@ -6,6 +6,7 @@ import shlex
 import pytest
 
 from lab.explore_asked import answer
+from lab.explore_driven import SMALL, settled
 from lab_in_browser import Pages, RunningLab
 from roughline.lab.explore import code
 
@@ -66,6 +67,14 @@ def tab(pages):
         return page
 
     return opened
+
+
+@pytest.fixture
+def fresh(tab):
+    """Explore as it opens on a small grid, at rest."""
+    page = tab(SMALL)
+    settled(page, points=64)
+    return page
 
 
 @pytest.fixture(autouse=True)

@@ -1,6 +1,8 @@
 """Explore in a browser, used as a person would: it shows what is answered, and saves it."""
 
+import json
 import re
+from urllib.parse import urlencode
 
 import numpy as np
 import pandas
@@ -9,12 +11,12 @@ from matplotlib import image as pictures_on_disk
 
 from lab.drawn_plots import drag, image, on_screen, source
 from lab.explore_asked import SMALL as STATE
-from lab.explore_asked import answer, said
+from lab.explore_asked import STICKS, answer, said
 from lab.explore_driven import (
-    SMALL,
     address,
     assert_link_shows_the_same,
     drawn,
+    save,
     sentence,
     settled,
     strip,
@@ -23,8 +25,6 @@ from lab.explore_driven import (
 )
 from roughline.comparison.trust import trust_map
 from roughline.lab.explore import pictures
-
-STICKING = "&D_f=2.2&w=1&h0=0.5&F=0.08"
 
 
 def answered(state):
@@ -36,22 +36,6 @@ def answered(state):
 
 def shown(page):
     return {key: [text for text in each if text] for key, each in strip(page).items()}
-
-
-@pytest.fixture(scope="module")
-def small(pages):
-    """Return one page on a small grid, for tests that set what they need."""
-    page = pages.open(SMALL)
-    settled(page, points=64)
-    return page
-
-
-@pytest.fixture
-def fresh(small, pages):
-    """Return the same page as it was opened."""
-    small.goto(pages.address + SMALL)
-    settled(small, points=64)
-    return small
 
 
 @pytest.mark.parametrize(("query", "points"), [("", 512), ("?view=explore&v=1&n=64", 64)])
@@ -92,16 +76,16 @@ def test_strip_and_tables_show_what_is_answered(fresh):
 
 
 @pytest.mark.parametrize("key", ["pressure", "gap", "displacement", "flux"])
-def test_the_second_map_shows_what_is_chosen(small, key):
-    small.set_checked("#explore-adds-fluid", key == "flux")
-    small.select_option('#explore [data-key="shown"]', key)
-    settled(small, points=64)
+def test_the_second_map_shows_what_is_chosen(fresh, key):
+    fresh.set_checked("#explore-adds-fluid", key == "flux")
+    fresh.select_option('#explore [data-key="shown"]', key)
+    settled(fresh, points=64)
     title = "deflection" if key == "displacement" else key  # which is sent when it is chosen
-    small.locator("#explore-contact .scale", has_text=title).wait_for()
-    _, arrays = answered(address(small))
+    fresh.locator("#explore-contact .scale", has_text=title).wait_for()
+    _, arrays = answered(address(fresh))
     wanted = arrays[key].ravel()
-    np.testing.assert_allclose(np.array(image(small, "contact"), float), wanted, rtol=1e-6)
-    assert address(small)["shown"] == key
+    np.testing.assert_allclose(np.array(image(fresh, "contact"), float), wanted, rtol=1e-6)
+    assert address(fresh)["shown"] == key
 
 
 REMEMBER_STATUS = """() => {
@@ -196,12 +180,12 @@ def shown_marks(page, name):
     return len(source(page, name)[0]) if name in named else 0
 
 
-def test_a_link_by_the_hurst_exponent_leaves_its_slider_alive(small, pages):
-    small.goto(pages.address + "?view=explore&v=1&H=0.5&n=64")
-    settled(small, D_f=2.5)
-    small.focus("#explore-D_f")
-    small.keyboard.press("ArrowRight")
-    settled(small, D_f=2.52)
+def test_a_link_by_the_hurst_exponent_leaves_its_slider_alive(tab):
+    page = tab("?view=explore&v=1&H=0.5&n=64")
+    settled(page, D_f=2.5)
+    page.focus("#explore-D_f")
+    page.keyboard.press("ArrowRight")
+    settled(page, D_f=2.52)
 
 
 def test_the_line_of_the_load_can_be_dragged(fresh):
@@ -212,11 +196,9 @@ def test_the_line_of_the_load_can_be_dragged(fresh):
     settled(fresh, points=64, F=float(fresh.input_value('#explore [data-text="F"]')))
 
 
-def test_a_press_and_a_save_do_not_stop_each_other(fresh):
+def test_a_press_and_a_save_do_not_stop_each_other(fresh, tmp_path):
     fresh.check('#explore [data-key="n"][value="512"]')
-    fresh.select_option("#saved", "surface.nc")
-    with fresh.expect_download():
-        fresh.click("#save")
+    save(fresh, "surface.nc", tmp_path)
     drawn(fresh, points=512)
 
 
@@ -238,11 +220,9 @@ def test_what_is_saved_is_what_is_shown_not_what_was_set_since(fresh, tmp_path):
     kept = pandas.read_csv(tmp_path / "before.csv", comment="#")
     assert kept.query("panel == 'area' and series == 'here'").x.tolist() == [0.2]
     settled(fresh, points=64, F=0.1)
-    with fresh.expect_download() as coming:
-        fresh.click("#save")
-    coming.value.save_as(tmp_path / "after.csv")
-    assert "L=2+mm" in (tmp_path / "after.csv").read_text()
-    assert_all_points_are_saved(fresh, tmp_path / "after.csv")
+    after = save(fresh, "curve.csv", tmp_path)
+    assert "L=2+mm" in after.read_text()
+    assert_all_points_are_saved(fresh, after)
     for which, lines in (
         ("python", ("in_si('2 mm', ", "load_in_newtons('11 MPa', surface.area)")),
         ("command", ("--length '2 mm'", "--load '11 MPa'")),
@@ -252,53 +232,40 @@ def test_what_is_saved_is_what_is_shown_not_what_was_set_since(fresh, tmp_path):
         code.filter(has_text="rl.press" if which == "python" else "roughline press").wait_for()
         assert all(line in code.inner_text() for line in lines)
         fresh.keyboard.press("Escape")
-    fresh.select_option("#saved", "contact.png")
-    with fresh.expect_download() as coming:
-        fresh.click("#save")
-    assert coming.value.suggested_filename == "contact.png"
-    coming.value.save_as(tmp_path / "contact.png")
-    assert_is_as_drawn(fresh, tmp_path / "contact.png")
+    picture = pictures_on_disk.imread(save(fresh, "contact.png", tmp_path))
+    assert picture.shape[1] > 400
+    colours = np.unique((picture[..., :3] * 255).astype(int).reshape(-1, 3), axis=0)
+    assert len(colours) > 100
 
 
 def assert_all_points_are_saved(page, file):
     """Check that a table has the points of all sources that the plots draw."""
     rows = pandas.read_csv(file, comment="#").groupby(["panel", "series"])
-    saved = {f"{panel} {name}": columns for (panel, name), columns in rows}
-    drawn = page.evaluate(
-        """() => {
-            const found = (name) => Bokeh.documents.map((each) => each.get_model_by_name(name))
-                .find((each) => each);
-            const {panels} = JSON.parse(document.querySelector("#explore").dataset.declared);
-            return Object.fromEntries(panels.flatMap(({key, series}) => series.map(({name}) => {
-                const {x, y} = found(`${key} ${name}`).data;
-                return [`${key} ${name.replaceAll(" ", "_")}`, [[...x], [...y]]];
-            })));
-        }"""
-    )
+    saved = {f"{panel}_{name}": columns for (panel, name), columns in rows}
+    declared = json.loads(page.get_attribute("#explore", "data-declared"))
+    drawn = {
+        f"{panel['key']} {series['name']}".replace(" ", "_"): source(
+            page, f"{panel['key']} {series['name']}"
+        )
+        for panel in declared["panels"]
+        for series in panel["series"]
+    }
     assert set(saved) == {name for name, (x, _) in drawn.items() if x}
     for name, columns in saved.items():
         assert columns.x.tolist() == drawn[name][0]
         assert columns.y.tolist() == drawn[name][1]
 
 
-def assert_is_as_drawn(page, file):
-    """Check that the contact in a picture has the share of its colour that the strip says."""
-    picture = pictures_on_disk.imread(file)
-    assert picture.shape[1] > 400
-    colours = np.unique((picture[..., :3] * 255).astype(int).reshape(-1, 3), axis=0)
-    assert len(colours) > 100
-
-
 @pytest.mark.parametrize(
-    ("added", "points", "told"),
+    ("state", "points", "told"),
     [
-        ("&n=1024", 128, "stopped: the coarse answer is shown"),
-        (STICKING + "&n=256", 256, "stopped"),
+        ({"n": "1024"}, 128, "stopped: the coarse answer is shown"),
+        ({**STICKS, "n": "256"}, 256, "stopped"),
     ],
     ids=["a press", "both ways"],
 )
-def test_what_takes_long_can_be_cancelled(tab, added, points, told):
-    page = tab(SMALL.replace("&n=64", "") + added)
+def test_what_takes_long_can_be_cancelled(tab, state, points, told):
+    page = tab("?" + urlencode({"view": "explore", "v": "1", **state}))
     page.wait_for_selector("#explore .cancel:visible")
     drawn(page, points=points)
     page.click("#explore .cancel")

@@ -14,6 +14,7 @@ from lab.explore_driven import (
     assert_link_shows_the_same,
     drawn,
     put,
+    save,
     sentence,
     settled,
     strip,
@@ -83,7 +84,7 @@ def show(page, shown):
 
 @KINDS
 @pytest.mark.parametrize("theme", ["light", "dark"])
-def test_walk_over_a_physics_which_is_ticked_linked_and_taken_away(pages, added, theme):
+def test_walk_over_a_physics_which_is_ticked_linked_and_taken_away(pages, added, theme, tmp_path):
     page, tick, panel = pages.open(added.link, theme=theme), added.tick, added.panel
     settled(page, points=64)
     before = strip(page)
@@ -104,10 +105,7 @@ def test_walk_over_a_physics_which_is_ticked_linked_and_taken_away(pages, added,
     show(page, added.map)
     texts_stand_out(page, "explore")
     if theme == "dark":
-        page.select_option("#saved", "curve.png")
-        with page.expect_download() as coming:
-            page.click("#save")
-        assert coming.value.suggested_filename == "curve.png"
+        save(page, "curve.png", tmp_path)
         other = assert_link_shows_the_same(page, pages, at_rest, tick=tick, panel=panel, points=64)
         assert table(other, panel) == table(page, panel)
         assert other.is_checked(f"#explore-adds-{tick}")
