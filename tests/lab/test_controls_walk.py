@@ -205,9 +205,14 @@ def test_sliders_of_the_paper_reach_both_ends_and_are_refused_beyond_the_other_e
 ):
     page, control = page_of_the_paper, published.NUMBERS[key]
     point, slider = page.locator("[data-words=point]"), page.locator(f"#published-{key}")
-    for share, end in ((0, control.low), (1, control.high)):
+    beyond = (control.high, control.low)[EDGES.get(key, 0)]
+    for move, end in (
+        (lambda: dragged(page, slider, 0), control.low),
+        (lambda: dragged(page, slider, 1), control.high),
+        (lambda: slider.press("Home"), control.low),
+    ):
         before = point.inner_text()
-        dragged(page, slider, share)
+        move()
         assert_beside(page, "published", key, end)
         page.wait_for_function(
             """([key, isEdge, isBeyond, before]) => {
@@ -216,10 +221,8 @@ def test_sliders_of_the_paper_reach_both_ends_and_are_refused_beyond_the_other_e
                     ? isBeyond === find(`[data-error=${key}]`).textContent.includes("meanwhile")
                     : find("[data-words=point]").innerText !== before;
             }""",
-            arg=[key, key in EDGES, share == 1 - EDGES.get(key, 0), before],
+            arg=[key, key in EDGES, end == beyond, before],
         )
-    slider.press("Home")
-    assert_beside(page, "published", key, control.low)
     slider.dblclick()
     assert float(page.input_value(f"#published-{key}-text")) == control.default
     # but for the text of the address, which another test mends
