@@ -79,12 +79,12 @@ class RunningLab:
         From its start until it said its address. [s]
     """
 
-    def __init__(self, log, *arguments):
+    def __init__(self, log, *arguments, program=("-m", "roughline"), **options):
         self._log = log.open("w+b")
-        command = [sys.executable, "-m", "roughline", "lab", "--no-browser", "--port", "0"]
+        command = [sys.executable, *program, "lab", "--no-browser", "--port", "0", *arguments]
         started = time.perf_counter()
         self.process = subprocess.Popen(
-            [*command, *arguments], stdout=subprocess.PIPE, stderr=self._log
+            command, stdout=subprocess.PIPE, stderr=self._log, **options
         )
         line = _first_line(self.process.stdout)
         self.seconds_to_open = time.perf_counter() - started
@@ -95,10 +95,10 @@ class RunningLab:
             raise TimeoutError(f"the lab does not start: {line!r} {log.read_text()}")
         self.address = found[0].decode()
 
-    def close(self):
+    def close(self, stop=signal.SIGINT):
         """Stop it by Ctrl-C; returns its exit code, and what it wrote to the terminal as errors."""
         with contextlib.suppress(ProcessLookupError):
-            self.process.send_signal(signal.SIGINT)
+            self.process.send_signal(stop)
         try:
             code = self.process.wait(patience())
         finally:

@@ -1,8 +1,33 @@
-"""One lab for the tests that drive a page."""
+"""One lab for the tests that drive a page, and what runs the code that a page gives."""
+
+import json
+import shlex
 
 import pytest
 
+from lab.explore_asked import answer
+from lab.explore_driven import SMALL, settled
 from lab_in_browser import Pages, RunningLab
+from roughline.lab.explore import code
+
+
+@pytest.fixture
+def ran(invoke, capsys, tmp_path, monkeypatch):
+    """Run what Explore gives as code: the lines that Python prints, or what the command tells."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(state, which):
+        text = answer(code.code, state, which=which)[0]["text"]
+        if which == "python":
+            exec(text, {})
+            return capsys.readouterr().out.splitlines()
+        commands = (shlex.split(line, comments=True)[1:] for line in text.splitlines())
+        for words in filter(None, commands):
+            done, told, errors = invoke(*words, *["--json"] * ("press" in words))
+            assert done == 0, errors
+        return json.loads(told)
+
+    return run
 
 
 @pytest.fixture(scope="session")
@@ -42,6 +67,14 @@ def tab(pages):
         return page
 
     return opened
+
+
+@pytest.fixture
+def fresh(tab):
+    """Explore as it opens on a small grid, at rest."""
+    page = tab(SMALL)
+    settled(page, points=64)
+    return page
 
 
 @pytest.fixture(autouse=True)

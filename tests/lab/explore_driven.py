@@ -4,6 +4,8 @@ from urllib.parse import parse_qsl, urlencode, urlsplit
 
 import numpy as np
 
+from lab.drawn_plots import image
+
 SMALL = "?view=explore&v=1&D_f=2.4&seed=3&n=64&F=0.2&cutoff=0.0625"
 
 RARE = 300  # between two changes of the address [ms]
@@ -59,20 +61,9 @@ def table(page, plot):
     )
 
 
-def image(page, name):
-    """Return the numbers of a map as Bokeh has them."""
-    return page.evaluate(
-        """(name) => {
-            const made = Bokeh.documents.find((each) => each.get_model_by_name(name));
-            return [...made.get_model_by_name(name).data.image[0]];
-        }""",
-        name,
-    )
-
-
-def typed(page, key, text):
+def typed(page, key, text, view="explore"):
     """Type a text beside a control, and leave it."""
-    field = page.locator(f'#explore [data-text="{key}"]')
+    field = page.locator(f'#{view} [data-text="{key}"]')
     field.fill(text)
     field.press("Tab")
 
@@ -83,57 +74,38 @@ def address(page):
     return dict(parse_qsl(urlsplit(page.evaluate("() => location.href")).query))
 
 
-def sentence(page, key):
+def sentence(page, key, view="explore"):
     """Return what stands in red at a control."""
-    return page.locator(f'#explore [data-error="{key}"]')
+    return page.locator(f'#{view} [data-error="{key}"]')
 
 
-def model(page, name, attribute):
-    """Return an attribute of what Bokeh has by a name."""
-    return page.evaluate(
-        """([name, attribute]) => {
+def save(page, name, folder):
+    """Save something by the button; return where it is."""
+    page.select_option("#saved", name)
+    with page.expect_download() as coming:
+        page.click("#save")
+    assert coming.value.suggested_filename == name
+    coming.value.save_as(folder / name)
+    return folder / name
+
+
+def put(page, name, **attributes):
+    """Set attributes of what Bokeh has by a name, as its tools do."""
+    page.evaluate(
+        """([name, attributes]) => {
             const made = Bokeh.documents.find((each) => each.get_model_by_name(name));
-            return made.get_model_by_name(name)[attribute];
+            Object.assign(made.get_model_by_name(name), attributes);
         }""",
-        [name, attribute],
+        [name, attributes],
     )
 
 
-def source(page, name):
-    """Return x and y of what is drawn."""
-    return page.evaluate(
-        """(name) => {
-            const made = Bokeh.documents.find((each) => each.get_model_by_name(name));
-            const {x, y} = made.get_model_by_name(name).data;
-            return [[...x], [...y]];
-        }""",
-        name,
-    )
-
-
-def assert_linked(page, pages, tick, panel, at_rest):
-    """Check that a link to the page shows the same."""
+def assert_link_shows_the_same(page, pages, at_rest, **wanted):
+    """Check that a link to the page shows the same; return the page that it opens."""
     other = pages.open("?" + urlencode(address(page)))
-    at_rest(other)
+    at_rest(other, **wanted)
     assert strip(other) == strip(page)
-    assert table(other, panel) == table(page, panel)
     np.testing.assert_array_equal(image(other, "contact"), image(page, "contact"))
     shown = '#explore [data-key="shown"]'
     assert other.input_value(shown) == page.input_value(shown)
-    assert other.is_checked(f"#explore-adds-{tick}")
-    assert other.is_visible(f"#plot-explore-{panel}")
-    other.context.close()
-
-
-def assert_taken_away(page, tick, panel, before):
-    """Untick a physics, and check that nothing is left of it but what was there before."""
-    (*_, last) = strip(page).keys() - before.keys()
-    page.uncheck(f"#explore-adds-{tick}")
-    settled(page, points=64)
-    page.wait_for_function(f"() => !document.querySelector('[data-answer={last}]')")
-    assert strip(page) == before
-    assert not page.is_visible(f"#tab-{panel}")
-    assert page.is_visible("#plot-explore-area")
-    assert page.input_value('#explore [data-key="shown"]') == "area"
-    assert set(image(page, "contact")) == {0, 1}
-    assert tick not in address(page)
+    return other

@@ -103,9 +103,9 @@
       && (each.matches("input") ? each.labels[0] : each).getBoundingClientRect().height < 24).map((each) => each.outerHTML.slice(0, 200));
   },
 
-  // Plots that are too small to read.
+  // Plots that are too small to read; trust maps are alike and stand beside each other.
   tiny(view) {
-    return [...document.querySelectorAll(`#${view} .plot`)].filter((each) => each.checkVisibility()
+    return [...document.querySelectorAll(`#${view} .plot:not([id*=trust])`)].filter((each) => each.checkVisibility()
       && (each.clientWidth < 250 || each.clientHeight < 200)).map((each) => each.id);
   },
 

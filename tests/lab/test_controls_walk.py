@@ -1,10 +1,11 @@
 """Controls of Explore and The paper as a person sets them: dragged, typed, refused, returned."""
 
-import math
+import re
 
 import pytest
 
 from lab.explore_driven import address, drawn, sentence, settled, typed
+from lab.measured_driven import READY, answers, fill
 from roughline.lab.explore import physics
 from roughline.lab.published import controls as published
 
@@ -38,8 +39,13 @@ def page_of_explore(pages):
 
 def complaints(page, view="explore"):
     """Return the red sentences that are seen."""
-    texts = page.locator(f"#{view} .error:visible").all_inner_texts()
-    return [text for text in texts if text]
+    return [text for text in page.locator(f"#{view} .error:visible").all_inner_texts() if text]
+
+
+def assert_beside(page, view, key, value):
+    """Check that the text beside a slider is a value, in three digits."""
+    shown = float(page.input_value(f"#{view}-{key}-text"))
+    assert shown == pytest.approx(value, rel=5e-3)
 
 
 def test_every_text_that_a_slider_writes_is_read(page_of_explore):
@@ -99,8 +105,7 @@ def test_every_slider_of_explore_reaches_both_ends_and_its_default(page_of_explo
         dragged(page, slider, share)
         drawn(page, **{key: end})
         assert complaints(page) == []
-        shown = float(page.input_value(f"#explore-{key}-text"))
-        assert shown == pytest.approx(end, rel=5e-3)
+        assert_beside(page, "explore", key, end)
     slider.dblclick()
     drawn(page, **{key: default})
     for press, end in (("End", control.high), ("Home", low)):
@@ -143,12 +148,26 @@ def test_walk_over_controls_of_which_some_are_refused(page_of_explore, pages):
 
 
 @pytest.mark.parametrize(
-    "query", ["cutoff=0.00195312&n=64", "h=5e-05&n=64", "H=0.5&n=64", "roll_off=0.03125&n=128"]
+    ("link", "control", "default"),
+    [
+        ("view=explore&v=1&colour=red&L=5+mm", "L", "1 mm"),
+        ("view=published&v=9&tolerance=0.2", "tolerance", "0.100"),
+        ("view=measured&v=7&first=gold", "first", "steel"),
+    ],
 )
-def test_a_link_of_an_older_lab_opens(page_of_explore, pages, query):
-    page_of_explore.goto(f"{pages.address}?view=explore&v=1&seed=7&F=0.1&{query}")
-    drawn(page_of_explore, F=0.1)
-    assert complaints(page_of_explore) == []
+def test_a_link_that_cannot_be_read_is_refused_in_one_sentence(tab, link, control, default):
+    page, view = tab(f"?{link}"), re.search("view=(.*?)&", link)[1]
+    refused = sentence(page, "", view).filter(has_text="set the controls by hand")
+    refused.wait_for()
+    assert page.input_value(f"#{view}-{control}-text") == default
+    if view == "explore":
+        drawn(page, D_f=2.2)
+        assert refused.is_visible()
+        page.check('#explore [data-key="n"][value="64"]')
+        settled(page, points=64)
+        assert not refused.is_visible()
+    else:
+        assert refused.is_visible()
 
 
 @pytest.fixture(scope="module")
@@ -161,15 +180,11 @@ def page_of_the_paper(pages):
 
 def test_texts_of_the_paper_are_refused_and_mended(page_of_the_paper):
     page = page_of_the_paper
-    sentence_at = page.locator('#published [data-error="tolerance"]')
-    sentence_at.filter(has_text="0.1 is used meanwhile").wait_for()
-    typed_at = page.locator("#published-tolerance-text")
-    typed_at.fill("0.2")
-    typed_at.press("Tab")
+    sentence(page, "tolerance", "published").filter(has_text="0.1 is used meanwhile").wait_for()
+    typed(page, "tolerance", "0.2", view="published")
     page.wait_for_selector('#published [data-error="tolerance"]:empty', state="attached")
-    page.locator("#published-low_3D-text").fill("9")
-    page.locator("#published-low_3D-text").press("Tab")
-    page.locator('#published [data-error="low_3D"]', has_text="0.01 is used").wait_for()
+    typed(page, "low_3D", "9", view="published")
+    sentence(page, "low_3D", "published").filter(has_text="0.01 is used").wait_for()
     page.locator('#published [data-words="error-3D"]:not(:empty)').wait_for()
     assert complaints(page, "published") == [
         page.inner_text('#published [data-error="low_3D"]'),
@@ -179,47 +194,37 @@ def test_texts_of_the_paper_are_refused_and_mended(page_of_the_paper):
     page.wait_for_function("() => !document.querySelector('#published .error:not(:empty)')")
 
 
-@pytest.mark.parametrize("key", ["tolerance", "map_D_f", "map_F"])
-def test_sliders_of_the_paper_reach_both_ends_and_their_defaults(page_of_the_paper, key):
+EDGES = {
+    edge.key: share for window in published.WINDOWS.values() for share, edge in enumerate(window)
+}
+
+
+@pytest.mark.parametrize("key", ["tolerance", "map_D_f", "map_F", *EDGES])
+def test_sliders_of_the_paper_reach_both_ends_and_are_refused_beyond_the_other_edge(
+    page_of_the_paper, key
+):
     page, control = page_of_the_paper, published.NUMBERS[key]
-    point = page.locator("[data-words=point]")
-    slider = page.locator(f"#published-{key}")
-    for share, end in ((0, control.low), (1, control.high)):
+    point, slider = page.locator("[data-words=point]"), page.locator(f"#published-{key}")
+    beyond = (control.high, control.low)[EDGES.get(key, 0)]
+    for move, end in (
+        (lambda: dragged(page, slider, 0), control.low),
+        (lambda: dragged(page, slider, 1), control.high),
+        (lambda: slider.press("Home"), control.low),
+    ):
         before = point.inner_text()
-        dragged(page, slider, share)
-        shown = float(page.input_value(f"#published-{key}-text"))
-        assert math.isclose(shown, end, rel_tol=5e-3)
+        move()
+        assert_beside(page, "published", key, end)
         page.wait_for_function(
-            "(text) => document.querySelector('[data-words=point]').innerText !== text",
-            arg=before,
+            """([key, isEdge, isBeyond, before]) => {
+                const find = (selector) => document.querySelector(`#published ${selector}`);
+                return isEdge
+                    ? isBeyond === find(`[data-error=${key}]`).textContent.includes("meanwhile")
+                    : find("[data-words=point]").innerText !== before;
+            }""",
+            arg=[key, key in EDGES, end == beyond, before],
         )
     slider.dblclick()
     assert float(page.input_value(f"#published-{key}-text")) == control.default
-
-
-@pytest.mark.parametrize("window", published.WINDOWS)
-def test_edges_of_a_window_go_to_both_ends_and_are_refused_beyond_the_other(
-    page_of_the_paper, window
-):
-    page = page_of_the_paper
-    low, high = published.WINDOWS[window]
-    for edge, wrong_end in ((low, 1), (high, 0)):
-        slider = page.locator(f"#published-{edge.key}")
-        for share, end in ((0, edge.low), (1, edge.high)):
-            dragged(page, slider, share)
-            shown = float(page.input_value(f"#published-{edge.key}-text"))
-            assert math.isclose(shown, end, rel_tol=5e-3)
-            page.wait_for_function(
-                """([key, isRefused]) => isRefused === document.querySelector(
-                    `#published [data-error="${key}"]`).textContent.includes("meanwhile")""",
-                arg=[edge.key, share == wrong_end],
-            )
-        slider.press("Home")
-        assert float(page.input_value(f"#published-{edge.key}-text")) == edge.low
-        slider.dblclick()
-        assert float(page.input_value(f"#published-{edge.key}-text")) == edge.default
-        # the next slider moves up as a sentence above it goes
-        page.wait_for_selector(f'#published [data-error="{edge.key}"]:empty', state="attached")
     # but for the text of the address, which another test mends
     others = "#published .error:not(:empty, [data-error=tolerance])"
     page.wait_for_function(f"() => !document.querySelector('{others}')")
@@ -234,43 +239,25 @@ WRONG |= {"hardness": "😀", "friction": "30", "frequency": "nan"}
 def test_refused_controls_of_my_surface_leave_the_others_alive(pages, rough, keys):
     page = pages.open("?view=measured")
     page.set_input_files("#measured [data-file]", rough)
-    page.click("[data-press]:not([disabled])", trial=True)
-
-    page.click("#measured-step-preparation > summary")
-
-    def typed_in(key, text):
-        field = page.locator(f'#measured [data-text="{key}"]')
-        if not field.is_visible():
-            page.click("#measured summary >> text=more")
-        field.fill(text)
-        field.press("Tab")
-
-    def said_at(key):
-        return page.locator(f'#measured [data-error="{key}"]')
+    page.click(READY, trial=True)
 
     wrong = {key: WRONG[key] for key in keys}
+    fill(page, **wrong)
     for key, text in wrong.items():
-        typed_in(key, text)
-    for key, text in wrong.items():
-        said_at(key).filter(has_text="is used meanwhile").wait_for()
+        sentence(page, key, "measured").filter(has_text="is used meanwhile").wait_for()
         assert page.input_value(f"#measured-{key}-text") == text
         assert page.get_attribute(f"#measured-{key}-text", "aria-invalid") == "true"
-    typed_in("first", "gold")
+    fill(page, first="gold")
     page.locator('[data-table="measured-bodies"]', has_text="gold").wait_for()
     page.check('#measured [data-key="trend"][value="curvature"]')
     page.locator('[data-list="prepared-remarks"]', has_text="curvature").wait_for()
     page.check('#measured [data-key="pixels"][value="points"]')
     page.click("[data-press]")
-    said_at("answers").filter(has_text="3 GPa").wait_for()
+    sentence(page, "answers", "measured").filter(has_text="3 GPa").wait_for()
     assert len(complaints(page, "measured")) == len(wrong) + 1
-    for key in wrong:
-        typed_in(key, {"second": "copper", "loads": "2 MPa", "resample": "32"}.get(key, ""))
+    mended = {"second": "copper", "loads": "2 MPa", "resample": "32"}
+    fill(page, **{key: mended.get(key, "") for key in wrong})
     page.wait_for_function("() => !document.querySelector('#measured .error:not(:empty)')")
     page.click("[data-press]")
-    page.wait_for_selector('[data-table="measured-answers"] tbody tr')
-    page.goto(f"{pages.address}?view=measured&v=7&first=gold")
-    page.locator('#measured [data-error=""]', has_text="reads version 1").wait_for()
-    assert page.input_value("#measured-first-text") == "steel"
-    typed_in("friction", "-1")
-    said_at("friction").filter(has_text="none is used meanwhile").wait_for()
+    assert answers(page)
     page.context.close()

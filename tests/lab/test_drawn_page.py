@@ -66,9 +66,8 @@ def test_after_any_moves_all_that_is_held_is_drawn(pages, moves, seed):
 
 
 @pytest.mark.parametrize("key", ["w", "hardness_bar", "fluid", "t"])
-def test_what_was_taken_away_comes_back(tab, key):
-    page = tab(SMALL)
-    settled(page, points=64)
+def test_what_was_taken_away_comes_back(fresh, key):
+    page = fresh
     page.check(f"#explore-adds-{key}")
     settled(page, points=64)
     added = drawn_of(page)

@@ -1,11 +1,7 @@
 """Explore: its addresses, and its numbers, which are those of the library."""
 
-import json
 import math
-import re
 import shlex
-import subprocess
-import sys
 from urllib.parse import parse_qsl
 
 import numpy as np
@@ -13,42 +9,37 @@ import pytest
 import xarray
 
 import roughline as rl
+from lab.explore_asked import (
+    COATED,
+    E_STAR,
+    HARDNESS,
+    HEIGHT,
+    LAW,
+    LAYERED,
+    LENGTH,
+    SCALE,
+    SHEARED,
+    SMALL,
+    STICKS,
+    YIELDING,
+    answer,
+    arguments,
+    loads,
+    numbers_in,
+    said,
+    saved,
+)
 from lab.unpacked import HALF_A_STEP, assert_sent, unpacked
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import code, downloads, pictures
 from roughline.lab.explore.panels import BACK
-from roughline.lab.explore.reading import read_state
+from roughline.lab.explore.reading import read_state, usable_state
 from roughline.lab.frames import frame, sent_bytes
 from roughline.margins.grid import intervals_of_grid
 from roughline.margins.press import facts_on_press
 from roughline.question.loading import UNLOADING
 from roughline.report.values import figure, up_to_three_digits
 from roughline.units import supported_digits
-
-SMALL = {"n": "64", "D_f": "2.4", "seed": "3", "F": "0.2", "cutoff": "0.0625"}
-LENGTH, E_STAR, HEIGHT = 1e-3, 110e9, 1e-6
-
-
-def arguments(state, folder=None, **others):
-    session = {"folder": str(folder), "names": {}}
-    return {"state": state, "session": session, **others}
-
-
-def answer(task, state, **others):
-    return unpacked(task(arguments(state, **others), lambda done, total: None))
-
-
-def loads(header, panel, *names):
-    """Return forces and values of a panel, of some series, by rising force."""
-    found = [header["panels"][panel]["series"][name] for name in names or ("curve", "unsure")]
-    columns = [np.concatenate([each[axis] for each in found]) for axis in ("x", "y")]
-    order = np.argsort(columns[0])
-    return columns[0][order], columns[1][order]
-
-
-def numbers_in(text):
-    """Return the numbers of a text."""
-    return [float(each) for each in re.findall(r"-?\d+\.?\d*", text)]
 
 
 @pytest.fixture(scope="module")
@@ -62,8 +53,7 @@ def surface():
 
 @pytest.fixture(scope="module")
 def curve(surface):
-    force = 0.2 * E_STAR * HEIGHT * LENGTH
-    return rl.press(surface, E_star=E_STAR, forces=[force], fields=True, grid_error=True)
+    return rl.press(surface, E_star=E_STAR, forces=[0.2 * SCALE], fields=True, grid_error=True)
 
 
 def test_a_message_is_read_as_it_was_written():
@@ -135,16 +125,32 @@ def test_heights_that_the_page_holds_are_not_sent_again():
     assert "height" in other["maps"]
 
 
-def test_the_contact_is_that_of_the_library(curve):
-    header, arrays = answer(pictures.full, SMALL)
-    fields = curve.fields[0]
-    wanted = curve.stiffness / (E_STAR * LENGTH)
-    assert loads(header, "stiffness", "here")[1] == pytest.approx(wanted, rel=1e-12)
-    assert loads(header, "area", "here")[1].tolist() == curve.area_fraction_corrected.tolist()
-    np.testing.assert_array_equal(arrays["area"], fields.contact.T)
+CONTACTS = {
+    "elastic": (SMALL, {"E_star": E_STAR}),
+    "repeated": ({**SMALL, "boundary": "periodic"}, {"E_star": E_STAR, "periodic": True}),
+    "layered": (COATED, {"half_space": LAYERED}),
+    "yielding": (YIELDING, {"E_star": E_STAR, "hardness": HARDNESS}),
+    "sticking": (STICKS, {"E_star": E_STAR, "law": LAW}),
+    "sheared": (SHEARED, {"E_star": E_STAR}),
+}
+
+
+@pytest.mark.parametrize("kind", CONTACTS)
+def test_the_contact_is_that_of_the_library(kind):
+    state, asked = CONTACTS[kind]
+    pressed = rl.press(
+        read_state(state).surface(64), forces=[float(state["F"]) * SCALE], fields=True, **asked
+    )
+    header, arrays = answer(pictures.full, state)
+    fields, wanted = pressed.fields[0], pressed.stiffness / (E_STAR * LENGTH)
+    assert loads(header, "stiffness", "here")[1] == pytest.approx(wanted, rel=1e-9)
+    areas = pressed.area_fraction_corrected
+    assert loads(header, "area", "here")[1] == pytest.approx(areas, rel=1e-9)
+    marks = 1 * fields.contact + fields.plastic + 2 * fields.pulling
+    np.testing.assert_array_equal(arrays["area"].T, marks)
     assert_sent(arrays["pressure"].T, fields.pressure / E_STAR)
     assert "displacement" not in arrays
-    _, arrays = answer(pictures.full, {**SMALL, "shown": "displacement"})
+    _, arrays = answer(pictures.full, {**state, "shown": "displacement"})
     assert_sent(arrays["displacement"].T, fields.displacement / HEIGHT)
 
 
@@ -159,26 +165,25 @@ def test_heights_and_the_gap_above_them_are_those_of_the_library(curve, surface)
 
 
 def test_the_answer_strip_says_what_the_library_says(curve, surface):
-    header, _ = answer(pictures.full, SMALL)
-    said = {item["key"]: item for item in header["strip"]}
+    strip = said(answer(pictures.full, SMALL)[0])
     k, error = curve.stiffness[0], curve.stiffness_error[0]
     ends = k / (1 + error / k), k + error
     value, _, interval = up_to_three_digits(k, ends, "N/m").partition(" (")
     over_sides = figure(k / (E_STAR * LENGTH), supported_digits(k, ends, 3))
-    assert said["stiffness_3d"]["value"] == value
-    assert said["stiffness_3d"]["below"] == f"({interval}, k / (E* L) {over_sides}"
+    assert strip["stiffness_3d"]["value"] == value
+    assert strip["stiffness_3d"]["below"] == f"({interval}, k / (E* L) {over_sides}"
     assert interval.endswith("MN/m)")
     area = 100 * curve.area_fraction_corrected[0]
-    assert float(said["area"]["value"].rstrip("%")) == pytest.approx(area, rel=0.05)
+    assert float(strip["area"]["value"].rstrip("%")) == pytest.approx(area, rel=0.05)
     in_contact = curve.force[0] / (curve.area_fraction[0] * surface.area)
     low, high = (end[0] for end in intervals_of_grid(curve).area)
     ends = in_contact * area / 100 / high, in_contact * area / 100 / low
     value, _, interval = up_to_three_digits(in_contact, ends, "Pa").partition(" (")
-    assert said["pressure"]["value"] == value
-    assert said["pressure"]["below"] == f"({interval}, {figure(in_contact / E_STAR)} E*"
-    assert said["depth"]["value"] == f"{curve.depth[0] / HEIGHT:#.3g} h"
-    assert said["roughness"]["value"] == "1.00 µm"
-    assert said["roughness"]["below"] == f"slope {surface.rms_slope:.3g}"
+    assert strip["pressure"]["value"] == value
+    assert strip["pressure"]["below"] == f"({interval}, {figure(in_contact / E_STAR)} E*"
+    assert strip["depth"]["value"] == f"{curve.depth[0] / HEIGHT:#.3g} h"
+    assert strip["roughness"]["value"] == "1.00 µm"
+    assert strip["roughness"]["below"] == f"slope {surface.rms_slope:.3g}"
 
 
 def test_the_line_is_the_mean_of_lines_with_the_same_waves():
@@ -193,65 +198,77 @@ def test_the_line_is_the_mean_of_lines_with_the_same_waves():
     for seed in range(3, 23):
         line = spectrum.line(2**13, seed)
         force = 0.2 * E_STAR * line.rms_height * LENGTH
-        pressed = rl.press(line, E_star=E_STAR, forces=[force])
-        stiffness.append(pressed.stiffness[0] / (E_STAR * LENGTH))
+        stiffness += [*rl.press(line, E_star=E_STAR, forces=[force]).stiffness_bar]
     assert header["line"]["stiffness_bar_1d"] == pytest.approx(np.mean(stiffness), rel=1e-12)
+    rows = header["line"]["panels"]["stiffness"]["rows"]
+    assert ["0.200", figure(np.mean(stiffness)), "1D"] in rows
 
 
 def test_the_curve_is_that_of_the_library(surface):
     header, _ = answer(pictures.curve, {**SMALL, "theories": "persson"})
     forces, stiffness = loads(header, "stiffness")
-    pressed = rl.press(surface, E_star=E_STAR, forces=forces * (E_STAR * HEIGHT * LENGTH))
+    pressed = rl.press(surface, E_star=E_STAR, forces=forces * SCALE)
     np.testing.assert_allclose(stiffness, pressed.stiffness / (E_STAR * LENGTH), rtol=1e-9)
+    marks = ["" if each else " *" for each in pressed.resolved]
+    for panel, values in (
+        ("stiffness", pressed.stiffness_bar),
+        ("area", pressed.area_fraction_corrected),
+    ):
+        wanted = [
+            [figure(x), figure(y) + z, "3D"]
+            for x, y, z in zip(pressed.force_bar, values, marks, strict=True)
+        ]
+        assert header["panels"][panel]["rows"][: len(wanted)] == wanted
     given, areas = loads(header, "area", "theory persson")
-    pressures = given * E_STAR * HEIGHT * LENGTH / surface.area
+    pressures = given * SCALE / surface.area
     wanted = rl.theory("persson", surface, E_STAR, pressures)
     np.testing.assert_allclose(areas, wanted.area_fraction, rtol=1e-12)
 
 
+def test_the_spectrum_is_that_of_the_surface(surface):
+    header, _ = answer(pictures.full, SMALL)
+    known = rl.isotropic_spectrum(surface).C_2d
+    known = known[known > 0]
+    rows = header["panels"]["spectrum"]["rows"]
+    assert [row[1] for row in rows] == [figure(x) for x in known[:: -(-known.size // 40)]]
+
+
 def test_a_coarse_answer_has_the_waves_of_its_grid():
-    state = {"n": "256", "seed": "3"}
-    header, arrays = answer(pictures.coarse, state)
+    header, arrays = answer(pictures.coarse, {"n": "256", "seed": "3"})
     assert header["points"] == 128
     assert header["is_coarse"]
     assert arrays["height"].shape == (128, 128)
 
 
-def test_periodic_contacts_are_those_of_the_library(surface):
-    header, _ = answer(pictures.full, {**SMALL, "boundary": "periodic"})
-    force = 0.2 * E_STAR * HEIGHT * LENGTH
-    pressed = rl.press(surface, E_star=E_STAR, forces=[force], periodic=True)
-    wanted = pressed.stiffness / (E_STAR * LENGTH)
-    assert loads(header, "stiffness", "here")[1] == pytest.approx(wanted)
-
-
 def test_an_rms_slope_is_that_of_the_surface():
     header, _ = answer(pictures.full, {**SMALL, "rms": "slope", "slope": "0.05"})
-    said = {item["key"]: item["below"] for item in header["strip"]}
-    assert said["roughness"] == "slope 0.0500"
+    assert said(header)["roughness"]["below"] == "slope 0.0500"
 
 
 @pytest.mark.parametrize(
-    ("said", "name", "value"),
+    ("typed", "wanted"),
     [
-        ({"D_f": "H = 0.8"}, "D_f", 2.2),
-        ({"H": "0.3"}, "D_f", 2.7),
-        ({"roll_off": "0.2 mm"}, "roll_off", 0.2),
-        ({"h": "0.3 um"}, "h", 3e-4),
-        ({"F": "11 N"}, "F", 0.1),
-        ({"F": "11 MPa"}, "F", 0.1),
-        ({"F": "11 N", "h": "2 um"}, "F", 0.05),
-        ({"L": "2 mm", "roll_off": "1 mm"}, "roll_off", 0.5),
-        ({"hardness_bar": "0.3"}, "hardness_bar", 0.3),
-        ({"rms": "slope", "slope": "0.05", "hardness_bar": "2.75 GPa"}, "hardness_bar", 0.5),
-        ({"hardness_bar": ""}, "hardness_bar", None),
-        ({}, "hardness_bar", None),
+        ({"D_f": "H = 0.8"}, {"D_f": 2.2}),
+        ({"H": "0.3"}, {"D_f": 2.7}),
+        ({"roll_off": "0.2 mm"}, {"roll_off": 0.2}),
+        ({"h": "0.3 um"}, {"h": 3e-4}),
+        ({"F": "11 N"}, {"F": 0.1}),
+        ({"F": "11 MPa"}, {"F": 0.1}),
+        ({"F": "11 N", "h": "2 um"}, {"F": 0.05}),
+        ({"L": "2 mm", "roll_off": "1 mm"}, {"roll_off": 0.5}),
+        ({"hardness_bar": "0.3"}, {"hardness_bar": 0.3}),
+        ({"rms": "slope", "slope": "0.05", "hardness_bar": "2.75 GPa"}, {"hardness_bar": 0.5}),
+        ({"hardness_bar": ""}, {}),
+        ({}, {}),
+        ({"t": "50 um", "E_l": "22 GPa"}, {"t": 0.05, "E_l": 0.2, "nu_l": 0.3, "nu_b": 0.3}),
+        ({**STICKS, "w": "110 J/m^2", "h0": "400 nm"}, {"w": 1, "h0": 0.4}),
     ],
 )
-def test_numbers_may_have_units(said, name, value):
-    state = read_state(said)
-    found = {key: value for each in state.added for key, value in each.numbers.items()}
-    assert (found | vars(state)).get(name) == pytest.approx(value)
+def test_numbers_may_have_units(typed, wanted):
+    state = read_state(typed)
+    added = {key: value for each in state.added for key, value in each.numbers.items()}
+    assert {key: (added | vars(state))[key] for key in wanted} == pytest.approx(wanted)
+    assert added.keys() <= wanted.keys()
 
 
 @pytest.mark.parametrize(
@@ -277,38 +294,66 @@ def test_a_pressure_stays_that_pressure_when_a_link_is_opened_and_the_height_cha
     assert pytest.approx(read_state(kept).F / 2) == lower.F
 
 
-@pytest.mark.parametrize(
-    ("said", "at"),
-    [
-        ({"D_f": "5"}, "D_f"),
-        ({"D_f": "2,2"}, "D_f"),
-        ({"D_f": "H = 2"}, "D_f"),
-        ({"F": "10 apples"}, "F"),
-        ({"F": "1e9 N"}, "F"),
-        ({"F": "nan"}, "F"),
-        ({"F": ""}, "F"),
-        ({"h": "1 m"}, "h"),
-        ({"h": "0"}, "h"),
-        ({"seed": "1.5"}, "seed"),
-        ({"n": "77"}, "n"),
-        ({"L": "3"}, "L"),
-        ({"E": "-1 GPa"}, "E"),
-        ({"cutoff": "0.5", "roll_off": "0.2"}, "cutoff"),
-        ({"theories": "hertz"}, "theories"),
-        ({"hardness_bar": "9"}, "hardness_bar"),
-        ({"hardness_bar": "soft"}, "hardness_bar"),
-        ({"hardness_bar": "1 kPa"}, "hardness_bar"),
-        ({"hardness_bar": "0.05", "F": "9"}, "F"),
-        ({"boundary": "open"}, "boundary"),
-        ({"v": "2"}, "v"),
-        ({"colour": "red"}, "v"),
-    ],
-)
-def test_what_cannot_be_used_is_refused_where_it_stands(said, at):
+ALONE = {
+    **{"D_f": ("5", "2,2", "H = 2"), "F": ("10 apples", "1e9 N", "nan", ""), "h": ("1 m", "0")},
+    **{"seed": ("1.5",), "n": ("77",), "L": ("3",), "E": ("-1 GPa",), "theories": ("hertz",)},
+    **{"hardness_bar": ("9", "soft", "1 kPa"), "boundary": ("open",), "fluid": ("z",)},
+}
+"""Texts that cannot be used, whatever the others are."""
+BESIDE = [
+    (COATED, {"t": "0.005"}, "t", "half a cell"),
+    (COATED, {"t": "2 m"}, "t", "from 2 µm to 1 mm"),
+    (COATED, {"E_l": "3 mm"}, "E_l", "no quantity in Pa"),
+    (COATED, {"nu_b": "0.6"}, "nu_b", "from 0 to 0.5"),
+    (SHEARED, {"Q": "0.3"}, "Q", "not less than μ F"),
+    (SHEARED, {"Q": "8 N"}, "Q", "not less than μ F"),
+    (SHEARED, {"mu": "0.1"}, "Q", "under which the bodies slide"),
+    (SHEARED, {"Q": "3 m"}, "Q", 'shear force is "3 m"'),
+    (SHEARED, {"nu": "0.6"}, "nu", "from 0 to 0.5"),
+    (SHEARED, {"mu": "0"}, "mu", "from 0.01 to 2"),
+    (SHEARED, {"hardness_bar": "0.3"}, "mu", "take the hardness away"),
+    (STICKS, {"h0": "0.2"}, "h0", "too short for the grid"),
+    (STICKS, {"w": "4"}, "h0", "too short for the grid"),
+    (STICKS, {"w": "50 Pa"}, "w", "J/m"),
+    (STICKS, {"w": "-1"}, "w", "from 0.0001 to 10"),
+    (STICKS, {"h0": "5 m"}, "h0", "range of the pull"),
+    (STICKS, {"hardness_bar": "0.3"}, "w", "stick and yield"),
+]
+TOGETHER = [
+    ({"cutoff": "0.5", "roll_off": "0.2"}, "cutoff", "not shorter than the roll-off"),
+    ({"hardness_bar": "0.05", "F": "9"}, "F", "bears less than its hardness"),
+    ({"mu": "0.3", "w": "1", "D_f": "2.2"}, "mu", "take the adhesion away"),
+    ({"v": "2"}, "v", "reads version 1"),
+    ({"colour": "red"}, "v", 'sets "colour"'),
+]
+
+
+def refuse(typed, at, why):
+    """Check that texts are refused at a control, in one line."""
     with pytest.raises(ControlError) as refused:
-        read_state(said)
+        read_state(typed)
     assert refused.value.at == at
+    assert why in str(refused.value)
     assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize(("typed", "at", "why"), TOGETHER)
+def test_what_cannot_be_used_together_is_refused(typed, at, why):
+    refuse(typed, at, why)
+
+
+@pytest.mark.parametrize(
+    ("before", "typed", "at", "why"),
+    [*BESIDE, *(({}, {key: text}, key, "") for key, texts in ALONE.items() for text in texts)],
+)
+def test_what_cannot_be_used_is_refused_where_it_stands_and_the_one_before_counts(
+    before, typed, at, why
+):
+    refuse({**before, **typed}, at, why)
+    state, refused = usable_state({"state": {**before, **typed}, "before": before})
+    assert state == read_state(before)
+    assert list(refused) == list(typed)
+    assert why in refused[next(iter(typed))]
 
 
 def test_a_cutoff_that_the_grid_does_not_carry_is_told_at_its_control():
@@ -326,24 +371,12 @@ def test_a_cutoff_that_the_grid_does_not_carry_is_told_at_its_control():
     assert told(cutoff="0.00195312") == ({}, 2 / 64)  # the default, which follows the grid
 
 
-def test_as_python_gives_the_same_numbers(curve):
-    header, _ = answer(code.code, SMALL, which="python")
-    done = subprocess.run(
-        [sys.executable, "-c", header["text"]], capture_output=True, text=True, check=True
-    )
-    numbers = [float(line.split()[-1]) for line in done.stdout.splitlines()]
+def test_code_gives_the_same_numbers(curve, ran):
+    numbers = [float(line.split()[-1]) for line in ran(SMALL, "python")]
     k = curve.stiffness[0] / (E_STAR * LENGTH)
     wanted = [k, curve.area_fraction_corrected[0], curve.depth[0] / HEIGHT]
     np.testing.assert_allclose(numbers, wanted, rtol=1e-9)
-
-
-def test_as_command_gives_the_same_numbers(invoke, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    generate, press = answer(code.code, SMALL, which="command")[0]["text"].splitlines()
-    for line in (generate, f"{press} --json"):
-        exit_code, out, errors = invoke(*shlex.split(line)[1:])
-        assert exit_code == 0, errors
-    intervals_are_those_of(SMALL, json.loads(out), "stiffness", "area_fraction")
+    intervals_are_those_of(SMALL, ran(SMALL, "command"), "stiffness", "area_fraction")
 
 
 SHOWN = {
@@ -355,7 +388,7 @@ SHOWN = {
 
 def intervals_are_those_of(state, report, *names):
     """Check that the strip has the intervals of a report."""
-    page = {item["key"]: item for item in answer(pictures.full, state)[0]["strip"]}
+    page = said(answer(pictures.full, state)[0])
     for name in names:
         key, unit = SHOWN[name]
         ends = [end[0] for end in report[f"{name}_interval"]]
@@ -365,7 +398,7 @@ def intervals_are_those_of(state, report, *names):
         assert f"({wanted}" in page[key]["below"]
 
 
-def test_what_stands_against_a_press_is_told_by_the_page_and_by_the_code_alike():
+def test_what_stands_against_a_press_is_told_by_the_page_and_by_the_code_alike(ran):
     steep = {"n": "64", "D_f": "2.9", "h": "0.1", "F": "10"}
     header, _ = answer(pictures.full, steep)
     surface = read_state(steep).surface(64)
@@ -374,16 +407,8 @@ def test_what_stands_against_a_press_is_told_by_the_page_and_by_the_code_alike()
     facts = facts_on_press(surface, pressed)
     assert [fact.kind for fact in facts if fact.is_grave] == ["steep", "strained"]
     assert header["facts"] == [fact.brief for fact in facts if fact.weight != "note"]
-    text = answer(code.code, steep, which="python")[0]["text"]
-    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
-    assert done.stdout.splitlines()[3:] == [str(fact) for fact in facts]
+    assert ran(steep, "python")[3:] == [str(fact) for fact in facts]
     assert answer(pictures.full, SMALL)[0]["facts"] == []
-
-
-def saved(name, state, tmp_path, **others):
-    """Save a file as the page does, and return where it is."""
-    header, _ = answer(downloads.download, state, folder=tmp_path, name=name, **others)
-    return tmp_path / "results" / header["file"]
 
 
 @pytest.mark.parametrize("name", downloads.FILES)
@@ -438,31 +463,19 @@ def test_saved_maps_are_those_that_are_shown(tmp_path, surface, curve):
 @pytest.fixture(scope="module")
 def yielding(surface):
     """The way up to the load and back, with a hardness that most of the contact reaches."""
-    shares = np.array([1, *UNLOADING])
-    return rl.press(
-        surface,
-        E_star=E_STAR,
-        hardness=0.3 * E_STAR * surface.rms_slope,
-        forces=0.2 * E_STAR * HEIGHT * LENGTH * shares,
-        fields=[0],
-    )
+    forces = 0.2 * SCALE * np.array([1, *UNLOADING])
+    return rl.press(surface, E_star=E_STAR, hardness=HARDNESS, forces=forces, fields=[0])
 
 
-YIELDING = {**SMALL, "hardness_bar": "0.3"}
-
-
-def test_plastic_spots_are_those_of_the_library(yielding):
-    header, arrays = answer(pictures.full, YIELDING)
-    fields = yielding.fields[0]
+def test_the_strip_says_what_yields(yielding):
+    fields, strip = yielding.fields[0], said(answer(pictures.full, YIELDING)[0])
     assert 0 < fields.plastic.sum() < fields.contact.sum()
-    np.testing.assert_array_equal(arrays["area"], (fields.contact.astype(int) + fields.plastic).T)
-    said = {item["key"]: item for item in header["strip"]}
-    assert said["plastic"]["value"] == f"{100 * yielding.plastic_fraction[0]:#.3g}%"
-    assert said["indentation"]["value"] == f"{yielding.indentation[0] / HEIGHT:#.3g} h"
+    assert strip["plastic"]["value"] == f"{100 * yielding.plastic_fraction[0]:#.3g}%"
+    assert strip["indentation"]["value"] == f"{yielding.indentation[0] / HEIGHT:#.3g} h"
     k_u = yielding.unloading_stiffness[0] / 1e6
-    assert float(said["unloading"]["value"].split(" MN/m")[0]) == pytest.approx(k_u, rel=0.05)
-    elastic = {item["key"] for item in answer(pictures.full, SMALL)[0]["strip"]}
-    assert said.keys() - elastic == {"unloading", "plastic", "indentation"}
+    assert float(strip["unloading"]["value"].split(" MN/m")[0]) == pytest.approx(k_u, rel=0.05)
+    elastic = said(answer(pictures.full, SMALL)[0])
+    assert strip.keys() - elastic.keys() == {"unloading", "plastic", "indentation"}
 
 
 def test_the_way_back_is_that_of_the_library(yielding):
@@ -484,19 +497,12 @@ def test_loads_of_the_curve_are_borne():
     assert len(rows) < 13
 
 
-def test_code_with_a_hardness_gives_the_same_numbers(
-    yielding, invoke, tmp_path, monkeypatch, capsys
-):
-    monkeypatch.chdir(tmp_path)
-    exec(answer(code.code, YIELDING, which="python")[0]["text"], {})
-    numbers = [float(line.split()[1]) for line in capsys.readouterr().out.splitlines()[3:5]]
+def test_code_with_a_hardness_gives_the_same_numbers(yielding, ran, invoke):
+    numbers = [float(line.split()[1]) for line in ran(YIELDING, "python")[3:5]]
     wanted = [yielding.unloading_stiffness[0], yielding.plastic_fraction[0]]
     np.testing.assert_allclose(numbers, wanted, rtol=1e-9)
-    generate, press = answer(code.code, YIELDING, which="command")[0]["text"].splitlines()
-    for line in (generate, press, f"{press} --json"):
-        exit_code, out, errors = invoke(*shlex.split(line)[1:])
-        assert exit_code == 0, errors
-        assert "unloaded to 75%" in out or line != press
     # values and intervals of the page, where loads that follow have no part in the interval
     names = ("stiffness", "unloading_stiffness", "area_fraction")
-    intervals_are_those_of(YIELDING, json.loads(out), *names)
+    intervals_are_those_of(YIELDING, ran(YIELDING, "command"), *names)
+    *_, press = answer(code.code, YIELDING, which="command")[0]["text"].splitlines()
+    assert "unloaded to 75%" in invoke(*shlex.split(press)[1:])[1]

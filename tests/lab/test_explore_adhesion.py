@@ -1,23 +1,18 @@
 """Bodies that stick in Explore: both ways, pull-off, maps, code and files are the library's."""
 
-import json
 import math
-import shlex
 
 import numpy as np
 import pytest
 import xarray
 
 import roughline as rl
-from lab.test_explore import E_STAR, HEIGHT, LENGTH, answer, loads, saved
+from lab.explore_asked import E_STAR, HEIGHT, LAW, SCALE, STICKS, answer, loads, said, saved
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import adhesion, code, pictures
-from roughline.lab.explore.reading import read_state, usable_state
+from roughline.lab.explore.reading import read_state
 
-SCALE = E_STAR * HEIGHT * LENGTH
-STICKS = {"n": "64", "D_f": "2.2", "seed": "7", "F": "0.08", "w": "1", "h0": "0.5"}
 POORLY = {**STICKS, "h0": "0.35"}  # 2.5 cells
-LAW = rl.Dugdale(work_of_adhesion=E_STAR * HEIGHT**2 / LENGTH, range=0.5 * HEIGHT)
 
 
 @pytest.fixture(scope="module")
@@ -59,26 +54,10 @@ def of_cycle(header):
     return header["panels"]["cycle"]["series"]
 
 
-def said(header):
-    return {item["key"]: item for item in header["strip"]}
-
-
-def refused(**changed):
-    """Return the sentences of texts that are not used after the first state."""
-    session = {}
-    before = read_state(STICKS).texts()
-    asked = {"state": {**before, **changed}, "before": before, "session": session}
-    state, sentences = usable_state(asked)
-    return state, sentences
-
-
-def test_the_map_shows_where_bodies_touch_and_where_they_pull(pressed):
-    header, arrays = answer(pictures.full, STICKS)
-    fields = pressed.fields[0]
+def test_the_strip_says_what_pulls(pressed):
+    fields, found = pressed.fields[0], said(answer(pictures.full, STICKS)[0])
     assert fields.contact.any()
     assert fields.pulling.any()
-    np.testing.assert_array_equal(arrays["area"].T, fields.contact + 2 * fields.pulling)
-    found = said(header)
     assert found["pulling"]["value"] == f"{100 * pressed.pulling_fraction[0]:#.3g}%"
     mean = fields.pressure[fields.contact].mean()
     assert f"{mean / E_STAR:#.3g} E*" in found["pressure"]["below"]
@@ -128,31 +107,6 @@ def test_without_a_pull_off_it_says_that_the_grid_does_not_resolve_it():
     assert said(header)["pull_off"]["value"] == "not known"
 
 
-@pytest.mark.parametrize(
-    ("key", "text", "why"),
-    [
-        ("h0", "0.2", "too short for the grid"),
-        ("w", "4", "too short for the grid"),
-        ("w", "50 Pa", "J/m"),
-        ("w", "-1", "from 0.0001 to 10"),
-        ("h0", "5 m", "range of the pull"),
-        ("hardness_bar", "0.3", "stick and yield"),
-    ],
-)
-def test_what_cannot_be_used_is_said_there_and_the_one_before_counts(key, text, why):
-    state, sentences = refused(**{key: text})
-    assert why in sentences[key]
-    assert state == read_state(STICKS)
-    assert list(sentences) == [key]
-
-
-def test_works_and_ranges_may_have_units():
-    work, height = 110e9 * HEIGHT**2 / LENGTH, "400 nm"
-    state, sentences = refused(w=f"{1e3 * work:.10g} mJ/m^2", h0=height)
-    assert not sentences
-    assert state.added[0].numbers == pytest.approx({"w": 1, "h0": 0.4})
-
-
 def test_without_the_tick_nothing_sticks():
     with pytest.raises(ControlError) as error:
         answer(pictures.further, {**STICKS, "w": ""}, of="w")
@@ -172,27 +126,18 @@ def test_a_fluid_flows_between_bodies_that_stick(pressed):
     assert loads(header, "aperture", "here")[1] == pytest.approx([aperture / HEIGHT], rel=1e-3)
 
 
-def test_as_python_gives_the_same_and_the_command_presses_bodies_that_stick(
-    cycle, capsys, invoke, tmp_path, monkeypatch
-):
-    exec(answer(code.code, STICKS, which="python")[0]["text"], {})
-    *_, there, _, back, pull = capsys.readouterr().out.splitlines()
-    found = said(answer(pictures.full, STICKS)[0])
-    assert 100 * float(there.split()[-1]) == pytest.approx(
-        float(found["area"]["value"][:-1]), rel=0.1
-    )
-    assert f"{100 * float(back.split()[-1]):#.3g}%" == said(cycle[0])["retreat"]["value"]
-    assert float(pull.split()[1]) / SCALE == pytest.approx(
-        of_cycle(cycle[0])["pull-off"]["y"][0], rel=1e-2
-    )
-    *commands, without = answer(code.code, STICKS, which="command")[0]["text"].splitlines()
-    assert without.startswith("# the way back and the pull-off")
-    monkeypatch.chdir(tmp_path)
-    for each in commands:
-        done, told, _ = invoke(*shlex.split(each)[1:], *["--json"] * each.count("press"))
-        assert done == 0
-    share = json.loads(told)["curve"]["area_fraction_corrected"][0]
-    assert 100 * share == pytest.approx(float(found["area"]["value"][:-1]), rel=0.1)
+def test_as_python_gives_the_same_and_the_command_presses_bodies_that_stick(cycle, ran):
+    *_, there, _, back, pull = ran(STICKS, "python")
+    found, way_back = said(answer(pictures.full, STICKS)[0]), said(cycle[0])
+    share = float(found["area"]["value"][:-1])
+    assert 100 * float(there.split()[-1]) == pytest.approx(share, rel=0.1)
+    assert f"{100 * float(back.split()[-1]):#.3g}%" == way_back["retreat"]["value"]
+    (wanted,) = of_cycle(cycle[0])["pull-off"]["y"]
+    assert float(pull.split()[1]) / SCALE == pytest.approx(wanted, rel=1e-2)
+    command = answer(code.code, STICKS, which="command")[0]["text"]
+    assert command.splitlines()[-1].startswith("# the way back and the pull-off")
+    (told,) = ran(STICKS, "command")["curve"]["area_fraction_corrected"]
+    assert 100 * told == pytest.approx(share, rel=0.1)
 
 
 def test_what_bodies_that_stick_show_can_be_saved(tmp_path, pressed):

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 import roughline as rl
+from lab.explore_asked import E_STAR, SCALE, SMALL, answer, loads, said
 from lab.explore_driven import SMALL as LINK
 from lab.explore_driven import address, settled, strip
 from lab.softer import Softer
-from lab.test_explore import E_STAR, SMALL, answer, loads
 from lab_in_browser import Pages, RunningLab
 from roughline.lab.explore import physics, pictures
 from roughline.lab.explore.reading import read_state
@@ -27,16 +27,14 @@ def _added(monkeypatch):
 
 @pytest.mark.usefixtures("_added")
 def test_it_is_pressed_and_kept_in_the_address():
-    said = SMALL | {"times": "2"}
-    header, _ = answer(pictures.full, said)
-    surface = read_state(SMALL).surface(64)
-    force = 0.2 * E_STAR * surface.rms_height * surface.length
-    pressed = rl.press(surface, E_star=E_STAR / 2, forces=[force])
+    softer = SMALL | {"times": "2"}
+    header, _ = answer(pictures.full, softer)
+    pressed = rl.press(read_state(SMALL).surface(64), E_star=E_STAR / 2, forces=[0.2 * SCALE])
     assert loads(header, "area", "here")[1] == pytest.approx(pressed.area_fraction_corrected)
     assert header["state"]["times"] == "2"
-    assert read_state(header["state"]) == read_state(said)
-    assert "times" in [item["key"] for item in header["strip"]]
-    assert answer(pictures.coarse, said)[0]["line"]["strip"][0]["below"] == "on the harder body"
+    assert read_state(header["state"]) == read_state(softer)
+    assert "times" in said(header)
+    assert answer(pictures.coarse, softer)[0]["line"]["strip"][0]["below"] == "on the harder body"
 
 
 @pytest.mark.usefixtures("_added")

@@ -1,19 +1,14 @@
 """Shear in Explore: the loop, its numbers, map and code are those of the library."""
 
-import json
-import shlex
-
 import numpy as np
 import pytest
 
 import roughline as rl
-from lab.test_explore import E_STAR, HEIGHT, LENGTH, SMALL, answer
-from roughline.lab.controls import ControlError
-from roughline.lab.explore import code, pictures
+from lab.explore_asked import E_STAR, HEIGHT, SCALE, SHEARED, SMALL, answer, said
+from roughline.lab.explore import pictures
 from roughline.lab.explore.reading import read_state, usable_state
 
-FORCE = 0.2 * E_STAR * HEIGHT * LENGTH
-SHEARED = {**SMALL, "mu": "0.3", "Q": "0.15"}
+FORCE = 0.2 * SCALE
 FIRST = 4  # number of the load that first has the largest shear force
 
 
@@ -35,10 +30,6 @@ def found():
     return answer(pictures.further, SHEARED, of="mu")
 
 
-def said(header):
-    return {item["key"]: item for item in header["strip"]}
-
-
 def test_the_loop_is_that_of_the_library(pressed, found):
     series = found[0]["panels"]["loop"]["series"]
     slides, shares = pressed.slide[:, 0] / HEIGHT, pressed.shear_force[:, 0] / FORCE
@@ -50,10 +41,8 @@ def test_the_loop_is_that_of_the_library(pressed, found):
 
 
 def test_the_strip_has_slide_stiffness_loss_and_what_never_slips(pressed, found):
-    strip, slip = (
-        said(found[0]),
-        np.diff([each.slip_total for each in pressed.fields if each], axis=0)[0],
-    )
+    strip = said(found[0])
+    slip = np.diff([each.slip_total for each in pressed.fields if each], axis=0)[0]
     assert strip["slide"]["value"] == f"{pressed.slide[FIRST, 0] / HEIGHT:#.3g} h"
     stiffness = 1 / np.linalg.inv(pressed.shear_stiffness_back[0])[0, 0]
     assert strip["tangential"]["value"] == f"{stiffness / 1e6:#.3g} MN/m"
@@ -77,27 +66,6 @@ def test_the_contact_is_that_without_shear():
     np.testing.assert_array_equal(sheared[1]["pressure"], plain[1]["pressure"])
 
 
-@pytest.mark.parametrize(
-    ("more", "at", "why"),
-    [
-        ({"Q": "0.3"}, "Q", "not less than μ F"),
-        ({"Q": "8 N"}, "Q", "not less than μ F"),
-        ({"mu": "0.1"}, "Q", "under which the bodies slide"),
-        ({"Q": "3 m"}, "Q", 'shear force is "3 m"'),
-        ({"nu": "0.6"}, "nu", "from 0 to 0.5"),
-        ({"mu": "0"}, "mu", "from 0.01 to 2"),
-        ({"w": "1", "D_f": "2.2"}, "mu", "take the adhesion away"),
-        ({"hardness_bar": "0.3"}, "mu", "take the hardness away"),
-    ],
-)
-def test_what_cannot_be_sheared_is_refused_where_it_stands(more, at, why):
-    with pytest.raises(ControlError) as refused:
-        read_state(SHEARED | more)
-    assert refused.value.at == at
-    assert why in str(refused.value)
-    assert "\n" not in str(refused.value)
-
-
 def test_a_load_that_bears_the_shear_no_more_is_refused_at_the_load():
     before = SHEARED | {"Q": "5 N"}
     asked = {"state": before | {"F": "0.1"}, "before": before, "session": {}}
@@ -116,17 +84,13 @@ def test_a_layer_is_sheared_on_a_surface_that_is_repeated():
     assert stiffness[0] < 0.8 * stiffness[1]
 
 
-def test_code_gives_the_same_numbers(pressed, invoke, tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
+def test_code_gives_the_same_numbers(pressed, ran):
+    scale = pressed.slide[FIRST, 0]
     for state in (SHEARED, SHEARED | {"Q": "3.3 N"}):
-        exec(answer(code.code, state, which="python")[0]["text"], {})
-        lines = capsys.readouterr().out.splitlines()
+        lines = ran(state, "python")
         slide, lost = float(lines[3].split()[-1]), float(lines[4].split()[-2])
-        assert slide == pytest.approx(pressed.slide[FIRST, 0] / HEIGHT, rel=1e-9)
+        assert slide == pytest.approx(scale / HEIGHT, rel=1e-9)
         assert lost == pytest.approx(pressed.dissipated[FIRST + 1 :].sum(), rel=1e-9)
-    for line in answer(code.code, SHEARED, which="command")[0]["text"].splitlines():
-        done, told, errors = invoke(*shlex.split(line)[1:], *["--json"] * line.count("press"))
-        assert done == 0, errors
-    sheared, scale = json.loads(told)["sheared"], pressed.slide[FIRST, 0]
+    sheared = ran(SHEARED, "command")["sheared"]
     np.testing.assert_allclose(sheared["slide"], pressed.slide, rtol=0, atol=1e-6 * scale)
     assert sheared["energy_of_cycles"] == pytest.approx([lost], rel=1e-5)

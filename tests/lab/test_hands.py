@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from lab.drawn_plots import still, values
 from lab.explore_driven import SMALL, settled
+from lab.measured_driven import READY, answers
 
 QUERIES = {"explore": SMALL, "measured": "?view=measured", "published": "?view=published"}
 PHONE = {"width": 390, "height": 844, "has_touch": True, "is_mobile": True}
@@ -31,16 +33,6 @@ SAID = """(view) =>
             ["radio", "checkbox"].includes(type) ? checked : value ?? textContent)"""
 PLOTS = """(view) => [...document.querySelectorAll(`#${view} .plot`)]
     .filter((each) => each.checkVisibility()).map((each) => each.id.slice("plot-".length))"""
-REST = """(name) => {
-    const place = document.querySelector(`#plot-${name}`);
-    const isDrawn = globalThis.Bokeh?.documents.flatMap((each) => each.roots())
-        .some((each) => each.name === name && each.inner_width > 0);
-    place.scrollIntoView({block: "center", behavior: "instant"});
-    const {x, y, width, height} = place.getBoundingClientRect(), now = [x, y, width, height];
-    const {still = 0, at} = window.rest ?? {};
-    window.rest = {still: isDrawn && now.join() === at ? still + 1 : 0, at: now.join()};
-    return window.rest.still >= 3 && [x + width / 2, y + height / 2];
-}"""
 
 
 @pytest.fixture(scope="module")
@@ -78,8 +70,8 @@ def opened(pages, view, file, **context):
     elif view == "measured":
         page.set_input_files("#measured [data-file]", file)
         page.click("#measured-step-preparation > summary")
-        page.click("[data-press]:not([disabled])")
-        page.wait_for_selector('[data-table="measured-answers"] tbody tr')
+        page.click(READY)
+        answers(page)
         page.click("[data-compare]")
         page.wait_for_selector('[data-table="measured-models"] tbody tr', state="attached")
     else:
@@ -92,8 +84,8 @@ def opened(pages, view, file, **context):
 
 def brought(page, plot):
     """Bring a plot to the middle of the window, where it rests; return the middle of it."""
-    page.evaluate("() => { window.rest = null; }")
-    return page.wait_for_function(REST, arg=plot).json_value()  # asked in each frame
+    frame = still(page, plot)
+    return frame["left"] + frame["width"] / 2, frame["top"] + frame["height"] / 2
 
 
 def way(page):
@@ -105,16 +97,6 @@ def scrolled(page, before):
     page.wait_for_function("(before) => Math.abs(scrollY - before) > 20", arg=before)
 
 
-def shown_whole(page, name, whole):
-    """Show a whole plot again: a double click; on a trust map, where a click chooses, a key."""
-    if "trust" in name:
-        page.focus(f"#plot-{name}")
-        page.keyboard.press("0")
-    else:
-        page.mouse.dblclick(*brought(page, name))
-    shows(page, name, whole)
-
-
 def shows(page, name, ranges):
     """Wait until a plot shows these ranges."""
     page.wait_for_function(
@@ -124,45 +106,40 @@ def shows(page, name, ranges):
     )
 
 
-@pytest.mark.parametrize("figures", [slice(2), slice(None)], ids=["two", "every"])
-@pytest.mark.parametrize("view", QUERIES)
-def test_walk_of_the_wheel_which_scrolls_over_every_figure_and_zooms_with_a_modifier(
-    desk, view, figures
-):
-    page = desk(view)
-    said = page.evaluate(SAID, view)
-    for name in plots(page, view)[figures]:
-        page.mouse.move(*brought(page, name))
-        whole, lengths = page.evaluate(RANGES, name), page.evaluate(LENGTHS, name)
-        before = page.evaluate("scrollY")
-        page.mouse.wheel(0, 100 * way(page))
-        scrolled(page, before)
-        assert page.evaluate(RANGES, name) == whole, name
-        page.mouse.move(*brought(page, name))
-        before = page.evaluate("scrollY")
-        page.keyboard.down("Control")
-        page.mouse.wheel(0, -100)
-        changed(page, name, whole)
-        assert all(np.less(page.evaluate(LENGTHS, name), lengths)), name
-        for _ in range(6):
-            page.mouse.wheel(0, 3000)
-        page.keyboard.up("Control")
-        page.wait_for_function(
-            f"([name, whole]) => ({LENGTHS})(name).every((length, i) => length > 1.9 * whole[i])",
-            arg=[name, lengths],
-        )
-        assert page.evaluate(LENGTHS, name) == pytest.approx(np.multiply(2, lengths)), name
-        assert page.evaluate("scrollY") == before
-        shown_whole(page, name, whole)
-    assert page.evaluate(SAID, view) == said
-
-
 def changed(page, name, ranges):
     """Wait until a plot shows something else."""
     page.wait_for_function(
         f"([name, ranges]) => ({RANGES})(name).join() !== ranges.join()",
         arg=[name, ranges],
     )
+
+
+class Mouse:
+    """A mouse whose wheel scrolls, and zooms with a modifier."""
+
+    def __init__(self, page):
+        self._mouse, self._page = page.mouse, page
+
+    def scroll(self, x, y, way):
+        self._mouse.move(x, y)
+        self._mouse.wheel(0, 100 * way)
+
+    def zoom(self, x, y):
+        self._wheel_with_a_modifier(x, y, -100)
+
+    def zoom_out(self, x, y):
+        """As far as it goes."""
+        self._wheel_with_a_modifier(x, y, *[3000] * 6)
+
+    def tap_twice(self, x, y):
+        self._mouse.dblclick(x, y)
+
+    def _wheel_with_a_modifier(self, x, y, *turns):
+        self._mouse.move(x, y)
+        self._page.keyboard.down("Control")
+        for turn in turns:
+            self._mouse.wheel(0, turn)
+        self._page.keyboard.up("Control")
 
 
 class Fingers:
@@ -199,53 +176,62 @@ class Fingers:
         """Draw one finger over the page."""
         self.go([(x + dx * i / 4, y + dy * i / 4) for i in range(5)])
 
+    def scroll(self, x, y, way):
+        self.swipe(x, y, 3, -100 * way)
+
+    def zoom(self, x, y):
+        steps = (20, 45, 70)
+        self.go([(x - i, y - i / 2) for i in steps], [(x + i, y + i / 2) for i in steps])
+
 
 @pytest.mark.parametrize("figures", [slice(2), slice(None)], ids=["two", "every"])
 @pytest.mark.parametrize("view", QUERIES)
-def test_walk_of_one_finger_which_scrolls_over_every_figure_and_two_which_zoom(
-    phone, view, figures
+@pytest.mark.parametrize(("kind", "hands"), [("desk", Mouse), ("phone", Fingers)])
+def test_walk_of_hands_which_scroll_over_every_figure_and_zoom_on_purpose(
+    request, kind, hands, view, figures
 ):
-    page = phone(view)
-    fingers = Fingers(page)
-    said = page.evaluate(SAID, view)
+    page = request.getfixturevalue(kind)(view)
+    hand, said = hands(page), page.evaluate(SAID, view)
     for name in plots(page, view)[figures]:
-        x, y = brought(page, name)
+        at = brought(page, name)
         whole, lengths = page.evaluate(RANGES, name), page.evaluate(LENGTHS, name)
         before = page.evaluate("scrollY")
-        fingers.swipe(x, y, 3, -100 * way(page))
+        hand.scroll(*at, way(page))
         scrolled(page, before)
-        fingers.swipe(*brought(page, name), 100, 4)
+        if kind == "phone":
+            hand.swipe(*brought(page, name), 100, 4)
+            assert page.evaluate("scrollX") == 0
         assert page.evaluate(RANGES, name) == whole, name
-        assert page.evaluate("scrollX") == 0
-        x, y = brought(page, name)
-        before = page.evaluate("scrollY")
-        steps = (20, 45, 70)
-        fingers.go([(x - i, y - i / 2) for i in steps], [(x + i, y + i / 2) for i in steps])
+        at, before = brought(page, name), page.evaluate("scrollY")
+        hand.zoom(*at)
         changed(page, name, whole)
         assert all(np.less(page.evaluate(LENGTHS, name), lengths)), name
+        if kind == "desk":
+            hand.zoom_out(*at)
+            twice = f"([name, whole]) => ({LENGTHS})(name).every((now, i) => now > 1.9 * whole[i])"
+            page.wait_for_function(twice, arg=[name, lengths])
+            assert page.evaluate(LENGTHS, name) == pytest.approx(np.multiply(2, lengths)), name
         assert page.evaluate("scrollY") == before
-        x, y = brought(page, name)
-        if "trust" in name:
+        if "trust" in name:  # where a click chooses
             page.focus(f"#plot-{name}")
             page.keyboard.press("0")
         else:
-            fingers.tap_twice(x, y)
+            hand.tap_twice(*brought(page, name))
         shows(page, name, whole)
-    assert swiped_over_sliders(page, fingers, view) == (4 if view != "measured" else 0)
+    if kind == "phone" and view != "measured":
+        assert swiped_over_sliders(page, hand, view) == 4
     assert page.evaluate(SAID, view) == said
 
 
 def swiped_over_sliders(page, fingers, view):
     """Scroll the page by a finger that begins on a slider; return how many there were."""
-    if view == "measured":
-        return 0
     page.click(f"#{view} .drawer")
     sliders = page.locator(f"#{view} [type=range]:visible").all()[:4]
     for slider in sliders:
         slider.evaluate("""(each) => each.scrollIntoView({block: "center"})""")
         box, before = slider.bounding_box(), page.evaluate("scrollY")
         x = box["x"] + (0.1 if float(slider.input_value()) > 1 else 0.9) * box["width"]
-        fingers.swipe(x, box["y"] + box["height"] / 2, 3, -100 * way(page))
+        fingers.scroll(x, box["y"] + box["height"] / 2, way(page))
         scrolled(page, before)
     page.click(f"#{view} .drawer")
     return len(sliders)
@@ -258,7 +244,7 @@ def test_after_its_button_a_finger_draws_once_and_a_touch_on_the_trust_map_choos
     x, y = brought(page, "published-stiffness-3D")
     button.tap()
     assert button.get_attribute("aria-pressed") == "true"
-    before = fit(page)
+    before = page.evaluate(FIT)
     fingers.swipe(x - 60, y, 100, 30)
     page.wait_for_selector('[data-draw="3D"][aria-pressed=false]')
     page.wait_for_function(f"(before) => ({FIT})() !== before", arg=before)
@@ -284,23 +270,6 @@ KEPT = """() => ["low_3D", "high_3D"].every((key) => {
     return Math.abs(kept / document.querySelector(`#published-${key}-text`).value - 1) < 0.01;
 })"""  # in the address, as the last answer has the window
 FIT = """() => document.querySelector('[data-table="fit-3D"]').innerText"""
-
-
-def fit(page):
-    return page.evaluate(FIT)
-
-
-def values(page, plot, *places):
-    """Return the values on the axis x of a plot at places on the screen."""
-    return page.evaluate(
-        """([plot, places]) => {
-            const view = Bokeh.index.find_one(Bokeh.documents.flatMap((each) => each.roots())
-                .find((each) => each.name === plot));
-            const {left} = document.querySelector(`#plot-${plot}`).getBoundingClientRect();
-            return places.map((place) => view.frame.x_scale.invert(place - left));
-        }""",
-        [plot, places],
-    )
 
 
 @pytest.mark.parametrize("kind", ["phone", "desk"])

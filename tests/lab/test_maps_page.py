@@ -9,37 +9,14 @@ import pytest
 from matplotlib import pyplot
 
 import roughline as rl
-from lab.explore_driven import SMALL, image, settled, typed
-from lab.test_measured_page import CONNECTED
+from lab.drawn_plots import drag, held, on_screen, source, still
+from lab.explore_asked import E_STAR, HEIGHT, LENGTH, SCALE
+from lab.explore_driven import SMALL, settled, typed
+from lab.measured_driven import CONNECTED
 from roughline.lab.explore.reading import read_state
 from seen import is_upright, lay_of_45_degrees
 
-FRAME = """(name) => {
-    const root = Bokeh.documents.flatMap((each) => each.roots()).find((each) => each.name === name);
-    const {frame, canvas_view} = Bokeh.index.find_one(root);
-    const {left, top} = canvas_view.events_el.getBoundingClientRect(), {bbox} = frame;
-    const {x_range: x, y_range: y} = root;
-    return {left: left + bbox.left, top: top + bbox.top, width: bbox.width, height: bbox.height,
-            ranges: [x.start, x.end, y.start, y.end]};
-}"""
-STILL = f"""(name) => {{
-    const now = ({FRAME})(name), text = JSON.stringify(now);
-    const {{still = 0, at}} = window.rest ?? {{}};
-    window.rest = {{still: text === at ? still + 1 : 0, at: text}};
-    return window.rest.still >= 3 && now;
-}}"""
-SOURCE = """(name) => {
-    const made = Bokeh.documents.find((each) => each.get_model_by_name(name));
-    return Object.fromEntries(Object.entries(made.get_model_by_name(name).data)
-        .map(([key, values]) => [key, [...values]]));
-}"""
 MAP = "explore-contact"
-
-
-def still(page, name):
-    """Return the frame of a plot when it has been the same in some pictures of the screen."""
-    page.evaluate("() => { window.rest = null; }")
-    return page.wait_for_function(STILL, arg=name).json_value()
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +38,8 @@ def test_the_map_fills_its_frame_and_the_profile_lies_below_it(pages, width, lea
     page = pages.open(SMALL, width=width, height=1000)
     settled(page, points=64)
     frame = still(page, MAP)
-    assert frame["ranges"] == [0, 1, 1, 0]  # y counts downwards
+    ends = ("x_range.start", "x_range.end", "y_range.start", "y_range.end")
+    assert held(page, MAP, *ends) == [0, 1, 1, 0]  # y counts downwards
     assert frame["width"] == pytest.approx(frame["height"], abs=1)
     assert frame["width"] >= least
     profile = still(page, "explore-profile")  # lies below, under the same places
@@ -71,26 +49,50 @@ def test_the_map_fills_its_frame_and_the_profile_lies_below_it(pages, width, lea
     page.context.close()
 
 
-def test_walk_over_a_map_which_tells_place_height_pressure_and_gap(small):
-    page = showing(small, "pressure", "1")
-    pressure = image(page, "contact")
-    strongest = max(range(len(pressure)), key=lambda i: pressure[i])
-    row, column = divmod(strongest, 64)
-    frame = still(page, MAP)
-    x, y = (column + 0.5) / 64, (row + 0.5) / 64
-    page.mouse.move(frame["left"] + x * frame["width"], frame["top"] + y * frame["height"])
+def middle_of(cell):
+    return [(i + 0.5) / 64 for i in cell]
+
+
+@pytest.fixture(scope="module")
+def pressed():
+    surface = read_state(dict(parse_qsl(SMALL[1:]))).surface(64)
+    return rl.press(surface, E_star=E_STAR, forces=[0.2 * SCALE], fields=True).fields[0]
+
+
+def test_walk_over_a_map_which_tells_what_the_library_knows_of_a_point(small, pressed):
+    page = showing(small, "pressure", "0.2")
+    strongest = np.unravel_index(pressed.pressure.argmax(), pressed.pressure.shape)
+    x, y = middle_of(strongest)
+    page.mouse.move(*on_screen(page, MAP, (x, y))[0])
     told = page.locator(f"#{MAP} .point").inner_text()
-    assert f"x {x:.3f}"[:5] in told
-    assert re.search(rf"pressure {pressure[strongest]:#.3g} E\*", told)
-    assert re.search(r"height -?[\d.]+ h", told)
-    assert "in contact" in told
-    cross = page.evaluate(SOURCE, "contact cut")  # along which the profile is cut
-    assert cross["y"][:2] == pytest.approx([y, y], abs=0.01)
-    assert cross["x"][-1] == pytest.approx(x, abs=0.01)
-    cut = page.evaluate(SOURCE, "profile surface")
-    assert (cut["x"][0], cut["x"][-1]) == (0, 1)
+    assert told.startswith(f"x {x:.3f} L, y {y:.3f} L; height ")
+    assert f"pressure {pressed.pressure[strongest] / E_STAR:#.3g} E*" in told
+    assert "; in contact" in told
+    cross_x, cross_y = source(page, "contact cut")  # along which the profile is cut
+    assert cross_y[:2] == pytest.approx([y, y], abs=0.01)
+    assert cross_x[-1] == pytest.approx(x, abs=0.01)
+    cut, _ = source(page, "profile surface")
+    assert (cut[0], cut[-1]) == (0, 1)
     page.mouse.move(5, 5)
-    assert not page.is_visible("#explore-contact .point")
+    assert not page.is_visible(f"#{MAP} .point")
+
+
+PHONE = {"width": 390, "height": 844, "has_touch": True, "is_mobile": True}
+
+
+@pytest.mark.parametrize("context", [{}, PHONE], ids=["mouse", "finger"])
+def test_what_flows_there_is_told_to_a_mouse_and_to_a_finger(pages, pressed, context):
+    page, cell = pages.open(SMALL + "&fluid=x&shown=flux", **context), (40, 22)  # which is open
+    settled(page, points=64)
+    flow = rl.flow(pressed)
+    (place,) = on_screen(page, MAP, middle_of(cell))
+    (page.touchscreen.tap if context else page.mouse.move)(*place)
+    gap, flux = pressed.gap[cell] / HEIGHT, np.hypot(*flow.flux)[cell] * LENGTH / flow.inflow
+    told = page.locator(f"#{MAP} .point").filter(has_text=f"; gap {gap:#.3g} h; ")
+    assert told.inner_text().endswith(f"; flux {flux:#.3g} of its mean")
+    narrowest = [[each] for each in map(pytest.approx, middle_of(flow.constriction))]
+    assert source(page, "contact rings") == narrowest
+    page.context.close()
 
 
 def draw(page, name, start, end, button="[data-profile=explore-profile]"):
@@ -98,25 +100,20 @@ def draw(page, name, start, end, button="[data-profile=explore-profile]"):
     if button:
         page.click(button)
     frame = still(page, name)
-    for act, (x, y) in ((page.mouse.down, start), (page.mouse.up, end)):
-        page.mouse.move(
-            frame["left"] + x * frame["width"],
-            frame["top"] + y * frame["height"],
-            steps=4,
-        )
-        act()
+    sides = (("left", "width"), ("top", "height"))
+    drag(
+        page,
+        *(
+            [frame[at] + part * frame[side] for part, (at, side) in zip(each, sides, strict=True)]
+            for each in (start, end)
+        ),
+    )
 
 
 def assert_fits(page, axis, values):
     """An axis has a twentieth of room about values; heights go on to round numbers."""
-    low, high = page.evaluate(
-        """(axis) => {
-            const made = Bokeh.documents.find((each) => each.get_model_by_name("explore-profile"));
-            const {start, end} = made.get_model_by_name("explore-profile")[`${axis}_range`];
-            return [start, end];
-        }""",
-        axis,
-    )
+    name = "explore-profile"
+    low, high = held(page, name, f"{axis}_range.start", f"{axis}_range.end")
     room = 0.05 * (max(values) - min(values))
     ends = min(values) - room, max(values) + room
     if axis == "x":
@@ -129,55 +126,48 @@ def assert_fits(page, axis, values):
 def test_a_line_across_a_map_shows_the_profile_of_both_bodies(small):
     page = showing(small, "area", "1")
     draw(page, MAP, (0.1, 0.5), (0.9, 0.5))
-    surface, body = (page.evaluate(SOURCE, f"profile {which}") for which in ("surface", "body"))
-    assert surface["x"][-1] == pytest.approx(0.8, abs=0.02)
-    assert all(low <= high + 1e-6 for low, high in zip(surface["y"], body["y"], strict=True))
-    assert any(high - low < 1e-6 for low, high in zip(surface["y"], body["y"], strict=True))
-    line = page.evaluate(SOURCE, "contact cut")
-    assert line["x"] == pytest.approx([0.1, 0.9], abs=0.02)
-    assert line["y"] == pytest.approx([0.5, 0.5], abs=0.02)
-    for axis, values in (("x", surface["x"]), ("y", surface["y"] + body["y"])):
-        assert_fits(page, axis, values)
+    surface, body = (source(page, f"profile {which}") for which in ("surface", "body"))
+    assert surface[0][-1] == pytest.approx(0.8, abs=0.02)
+    assert all(low <= high + 1e-6 for low, high in zip(surface[1], body[1], strict=True))
+    assert any(high - low < 1e-6 for low, high in zip(surface[1], body[1], strict=True))
+    line = source(page, "contact cut")
+    assert line == [pytest.approx([0.1, 0.9], abs=0.02), pytest.approx([0.5, 0.5], abs=0.02)]
+    assert_fits(page, "x", surface[0])
+    assert_fits(page, "y", surface[1] + body[1])
     showing(page, "area", "0.1")  # which the profile follows
-    lifted = page.evaluate(SOURCE, "profile body")
-    assert sum(lifted["y"]) > sum(body["y"])
-    assert_fits(page, "y", surface["y"] + lifted["y"])
+    _, lifted = source(page, "profile body")
+    assert sum(lifted) > sum(body[1])
+    assert_fits(page, "y", surface[1] + lifted)
     page.click("[data-profile=explore-profile]")  # the cross is there again
-    assert page.evaluate(SOURCE, "profile surface")["x"][-1] == 1
+    assert source(page, "profile surface")[0][-1] == 1
     page.click("[data-profile=explore-profile]")
 
 
-def test_the_scale_of_a_map_has_its_name_and_unit(small):
-    page = showing(small, "gap", "0.2")
-    assert page.inner_text("#explore-contact .scale > span") == "gap / h"
-    assert page.locator("#explore-contact .scale i span").count() >= 2
-    page.select_option('[data-key="shown"]', "area")
-    assert page.inner_text("#explore-contact .scale") == ""
-    page.select_option('[data-key="shown"]', "height")
-    assert page.inner_text("#explore-contact .scale > span") == "height / h"
-
-
 @pytest.mark.parametrize("theme", ["light", "dark"])
-def test_the_scale_of_a_map_has_its_colours(pages, theme):
+def test_the_scale_of_a_map_has_its_name_its_unit_and_its_colours(pages, theme):
     page = pages.open(SMALL + "&fluid=x&shown=flux", theme=theme)
     settled(page, points=64)
-    for shown in ("flux", "pressure", "gap"):
+    scale = page.locator(f"#{MAP} .scale")
+    for shown, name in (("flux", "flux"), ("pressure", "pressure"), ("gap", "gap / h")):
         page.select_option('[data-key="shown"]', shown)
-        page.locator("#explore-contact .scale > span").filter(has_text=shown).wait_for()
-        bar = page.locator("#explore-contact .scale i")
+        scale.locator("> span").filter(has_text=name).wait_for()
+        bar = scale.locator("i")
+        assert bar.locator("span").count() >= 2
         drawn = bar.evaluate("(each) => getComputedStyle(each).backgroundImage")
         assert drawn.startswith("linear-gradient")
         assert len(set(re.findall(r"rgba?\([^)]*\)", drawn))) > 9, shown
+    page.select_option('[data-key="shown"]', "area")
+    assert scale.inner_text() == ""
+    page.select_option('[data-key="shown"]', "height")
+    assert scale.locator("> span").inner_text() == "height / h"
     page.context.close()
 
 
 def of_screen(page, name):
     """Brightness of a map on the screen, rows from the top downwards."""
-    page.locator(f"#plot-{name}").scroll_into_view_if_needed()
     frame = still(page, name)
     page.mouse.move(1, 1)  # whose tools are hidden then
-    inside = {key: frame[key] + 2 for key in ("left", "top")}
-    clip = {"x": inside["left"], "y": inside["top"]}
+    clip = {"x": frame["left"] + 2, "y": frame["top"] + 2}
     clip |= {key: frame[key] - 4 for key in ("width", "height")}
     return pyplot.imread(io.BytesIO(page.screenshot(clip=clip)))[..., :3].mean(axis=-1)
 

@@ -2,18 +2,25 @@
 
 import re
 from dataclasses import replace
-from urllib.parse import parse_qs, urljoin, urlsplit
+from urllib.parse import urljoin
 
 import pytest
 
 import roughline as rl
-from lab.looks import asked, cut_off, faint, tabbed
-
-FILES = ("al3d-1.al3d", "dektak-1.csv", "di-1.di", "mitutoyo_mock.xlsx", "opd-1.opd", "sur-3.sur")
-EXAMPLE = "[data-example] >> nth=0"
-LINE_SCAN = "[data-example] >> nth=2"  # which is soon prepared
-CONNECTED = '#measured-step-bodies .line:has-text(" on ")'  # what the server has answered
-
+from lab.drawn_plots import source
+from lab.looks import asked, cut_off, faint
+from lab.measured_driven import (
+    CONNECTED,
+    EXAMPLE,
+    LINE_SCAN,
+    READY,
+    SHOWN,
+    answers,
+    choose,
+    fill,
+    line_of,
+    press,
+)
 
 BODIES = ("of few points", "an example")
 
@@ -50,18 +57,10 @@ def measured(pages):
     return page
 
 
-def with_answers(page):
-    page.fill("#measured-loads-text", "2 MPa")
-    page.press("#measured-loads-text", "Tab")
-    page.click("[data-press]:not([disabled])")
-    page.wait_for_selector('[data-table="measured-answers"] tbody tr')
-    return page
-
-
 def test_a_click_before_plots_can_be_drawn_is_not_lost(tab):
     late = ("**/bokeh-api.min.js", lambda page: page.click(LINE_SCAN))
     page = tab("?view=measured", late)
-    page.wait_for_selector("[data-press]:not([disabled])")
+    page.wait_for_selector(READY)
 
 
 def test_nothing_can_be_clicked_before_it_is_listened_to(tab):
@@ -70,7 +69,7 @@ def test_nothing_can_be_clicked_before_it_is_listened_to(tab):
     late = ("**/measured.js", lambda page: seen.append(page.evaluate(inert)))
     page = tab("?view=measured", late)
     page.click(LINE_SCAN)
-    page.wait_for_selector("[data-press]:not([disabled])")
+    page.wait_for_selector(READY)
     assert seen == [True]
 
 
@@ -87,35 +86,18 @@ def test_a_step_that_is_opened_while_a_file_comes_stays_open(tab, few_points):
     page.wait_for_selector("#measured-step-bodies:not([open])")
 
 
-def bring(page, name, content):
-    """Choose a file, by its path or with its content."""
-    file = {"name": name, "mimeType": "application/octet-stream", "buffer": content}
-    page.set_input_files("#measured [data-file]", file)
-
-
-def refused(page, words):
-    """Wait for the sentence at the file, which is one line without a path."""
-    place = page.locator('#measured [data-error="file"]')
-    place.filter(has_text=words).wait_for()
-    said = place.inner_text()
-    assert "\n" not in said
-    assert "/tmp" not in said
-    assert "Traceback" not in said
-    return said
-
-
-def answers_are_shown(page, plot="contact"):
-    assert "copper" in page.input_value("#measured-second-text")
-    text = page.inner_text('[data-table="measured-answers"]')
-    assert "N/m" in text or "Pa" in text
-    assert page.is_visible(f"#plot-measured-{plot}")
-
-
 @pytest.mark.parametrize(("example", "plot"), [(LINE_SCAN, "stiffness"), (EXAMPLE, "contact")])
 def test_an_example_is_answered_for(tab, example, plot):
     page = tab("?view=measured")
     page.click(example)
-    answers_are_shown(with_answers(page), plot)
+    page.wait_for_selector(READY)
+    press(page, loads="2 MPa")
+    assert re.search(r"N/m|Pa", answers(page))
+    assert "Steel on copper" in page.inner_text('[data-words="answers-lead"]')
+    assert page.is_visible(f"#plot-measured-{plot}")
+    fill(page, first="E=70 GPa nu=0.33")
+    notes = page.locator('[data-list="bodies-notes"] li', has_text="E=70 GPa nu=0.33")
+    notes.first.wait_for()
 
 
 STEPS = ("preparation", "bodies", "answers")
@@ -135,9 +117,8 @@ def test_steps_that_wait_are_one_line_which_opens_by_key_and_by_touch(pages):
     page.focus("#measured-step-preparation > summary")
     page.keyboard.press("Enter")
     assert page.is_visible("#measured-low_pass-text")
-    page.fill("#measured-low_pass-text", "2 um")
-    page.press("#measured-low_pass-text", "Tab")
-    page.locator("#measured-step-preparation .line", has_text="low pass 2 um").wait_for()
+    fill(page, low_pass="2 um")
+    line_of(page, "preparation").filter(has_text="low pass 2 um").wait_for()
     page.locator("#measured-step-bodies > summary").tap()
     assert page.is_visible("#measured-first-text")
     page.reload()
@@ -151,7 +132,7 @@ def test_what_is_grave_stands_above_the_figures_and_the_press_shows_its_answer(t
     page = tab("?view=measured")
     page.set_viewport_size({"width": 1600, "height": 1000})
     page.click(LINE_SCAN)
-    page.wait_for_selector("[data-press]:not([disabled])")
+    page.wait_for_selector(READY)
     assert [is_open(page, step) for step in STEPS] == [False, True, False]
     window = page.viewport_size["height"]
     assert page.locator("[data-press]").bounding_box()["y"] < window - 30
@@ -173,32 +154,18 @@ def test_walk_to_what_leaks_which_is_asked_in_a_fold_and_shown_on_the_map(prepar
     page = prepared(body, "&loads=50+MPa", "&example=ground&resample=64")
     assert not page.is_visible("#measured-fluid-text")
     page.click("summary:has-text('a fluid in the gap')")
-    for key, text in (("fluid", "helium"), ("inlet", "6 bar"), ("seal", "20 mm .. 24 mm")):
-        page.fill(f"#measured-{key}-text", text)
-        page.press(f"#measured-{key}-text", "Tab")
-    page.click("[data-press]:not([disabled])")
+    press(page, fluid="helium", inlet="6 bar", seal="20 mm .. 24 mm")
     answers = page.locator('[data-table="measured-answers"]')
     answers.filter(has_text="leak rate").wait_for()  # with nearly two hundred small contacts
     assert not page.locator("#measured .error:visible").filter(has_text="a").count()
-    answers_are_shown(page)
     assert asked(page, "nameless", "measured") == []
     assert asked(page, "undescribed", "measured") == []
     page.select_option("#measured [data-choice=measured-contact]", "flux")
     assert "in contact" in page.inner_text('[data-caption="measured-contact"]')
-    shown = page.evaluate(
-        """() => {
-            const made = Bokeh.documents.find((each) => each.get_model_by_name("measured-contact"));
-            return made.get_model_by_name("contact rings").data.x.length;
-        }"""
-    )
-    assert shown == 1
+    assert len(source(page, "contact rings")[0]) == 1
     assert "flux" in page.inner_text("#measured-contact .scale")
     assert faint(page) == []
-    page.fill("#measured-fluid-text", "")
-    page.fill("#measured-inlet-text", "")
-    page.fill("#measured-seal-text", "")
-    page.press("#measured-seal-text", "Tab")
-    page.click("[data-press]:not([disabled])")
+    press(page, fluid="", inlet="", seal="")
     page.wait_for_function(
         """() => document.querySelector('[data-choice="measured-contact"]').value === "area" """
     )
@@ -207,7 +174,7 @@ def test_walk_to_what_leaks_which_is_asked_in_a_fold_and_shown_on_the_map(prepar
 
 def test_why_answers_are_not_known_better_unfolds_to_bars_at_any_width(prepared):
     page = prepared(BODIES[0], "&loads=2+MPa&grid_error=yes", "")
-    page.click("[data-press]:not([disabled])")
+    page.click(READY)
     fold = page.locator("#measured details.why")
     fold.locator("summary", has_text="Why it is not known better").click()
     assert "Independent causes add in squares" in fold.inner_text()
@@ -227,36 +194,13 @@ def test_why_answers_are_not_known_better_unfolds_to_bars_at_any_width(prepared)
 def test_theories_have_their_names_and_their_dashes_beside_the_curve(prepared, body):
     asked_for = "&loads=2+MPa&boundary=periodic&theories=persson,bush-gibson-thomas"
     page = prepared(body, asked_for, "&example=film&resample=64")
-    page.click("[data-press]:not([disabled])")
-    page.locator('[data-table="measured-answers"]').filter(has_text="N/m").wait_for()
+    page.click(READY)
+    assert "N/m" in answers(page)
     named = page.locator("#measured-area .names li:visible", has_text=re.compile("Persson|Bush"))
     assert named.all_inner_texts() == ["Persson", "Bush, Gibson, Thomas"]
     dashes = [each.locator("path").get_attribute("stroke-dasharray") for each in named.all()]
     assert len({*dashes, ""}) == 3
     assert page.inner_text("#measured > .error") == ""
-
-
-@pytest.mark.parametrize("body", BODIES)
-def test_a_coated_material_is_typed_pressed_and_kept_in_the_address(prepared, tab, body):
-    page = prepared(body, "&loads=2+MPa&second=steel", "&example=ground&resample=64")
-    page.fill("#measured-first-text", "gold 20 µm on nickel")
-    page.press("#measured-first-text", "Tab")
-    page.locator('[data-table="measured-bodies"]').filter(
-        has_text="gold 20 µm on nickel:"
-    ).wait_for()
-    page.click("[data-press]:not([disabled])")
-    page.locator('[data-table="measured-answers"]').filter(has_text="N/m").wait_for()
-    assert "against steel" in page.inner_text("#measured")
-    assert "no tangential stiffness of coated bodies: its ratio" in page.inner_text("#measured")
-    address = parse_qs(urlsplit(page.url).query)
-    assert address["first"] == ["gold 20 µm on nickel"]
-    page.fill("#measured-first-text", "gold on nickel")
-    page.press("#measured-first-text", "Tab")
-    page.locator('#measured [data-error="first"]').filter(has_text="is no layer").wait_for()
-    assert faint(page) == []
-    again = tab(f"?{urlsplit(page.url).query}")
-    again.wait_for_selector(CONNECTED)
-    assert again.input_value("#measured-first-text").startswith("gold")
 
 
 def results_open_under_the_policy(page):
@@ -281,17 +225,16 @@ def test_a_report_presses_first_if_nothing_is_shown_yet(tab, example):
     page.click("#measured-step-answers > summary")
     page.click("[data-report]:enabled")
     page.locator("[data-links] a").first.wait_for()
-    assert page.is_visible('[data-table="measured-answers"]')
+    assert answers(page)
     results_open_under_the_policy(page)
 
 
 def test_walk_from_answers_to_code_and_a_report_which_are_of_what_is_shown(tab, tmp_path):
     page = tab("?view=measured&v=1&example=shaft&first=steel&second=copper&loads=2+MPa")
-    page.click("[data-press]:not([disabled])")
-    page.wait_for_selector('[data-table="measured-answers"] tbody tr')
+    press(page)
+    page.wait_for_selector(SHOWN)
     shown = page.locator('[data-figures="answers"] dd').first.inner_text()
-    page.fill("#measured-loads-text", "20 MPa")
-    page.press("#measured-loads-text", "Tab")
+    fill(page, loads="20 MPa")
     page.wait_for_selector("[data-changed]:visible")
     page.click('#measured [data-code="command"]')
     code = page.locator("#measured-code pre")
@@ -305,8 +248,7 @@ def test_walk_from_answers_to_code_and_a_report_which_are_of_what_is_shown(tab, 
     figure = float(shown.split()[0])  # in three digits; the report may have more
     assert any(float(f"{float(each):.3g}") == figure for each in re.findall(r"\d+\.\d+", report))
     assert "20 MPa" not in report
-    page.fill("#measured-loads-text", "30 MPa")
-    page.press("#measured-loads-text", "Tab")
+    fill(page, loads="30 MPa")
     assert link.count() == 1  # which is of what is shown still
     page.click("[data-press]")
     page.wait_for_selector("[data-changed]", state="hidden")
@@ -320,12 +262,11 @@ def test_walk_from_answers_to_code_and_a_report_which_are_of_what_is_shown(tab, 
 def test_a_press_can_be_cancelled(tab):
     page = tab("?view=measured")
     page.click(EXAMPLE)
-    page.fill("#measured-loads-text", "")
-    page.press("#measured-loads-text", "Tab")
-    page.click("[data-press]:not([disabled])")
+    page.wait_for_selector(READY)
+    press(page, loads="")
     page.click("#measured [data-waiting] .cancel")
     page.wait_for_selector("#measured [data-waiting] .cancel", state="hidden")
-    page.wait_for_selector("[data-press]:not([disabled])")
+    page.wait_for_selector(READY)
     assert not page.is_visible('[data-table="measured-answers"]')
 
 
@@ -340,19 +281,15 @@ def test_walk_over_maps_of_a_part_brought_checked_pressed_and_left_out(tab, tmp_
     page = tab("?view=measured")
     page.wait_for_selector(CONNECTED)
     maps = page.locator('[data-table="measured-maps"] tbody tr')
-    with page.expect_file_chooser() as coming:
-        page.click("[data-choose]")
-    coming.value.set_files([tmp_path / "broken.x3p", *paths[:2]])
+    choose(page, tmp_path / "broken.x3p", *paths[:2])
     maps.nth(2).wait_for()
-    page.locator("[data-words=line-file]", has_text="place 0.nc").wait_for()
+    line_of(page, "file").filter(has_text="place 0.nc").wait_for()
     assert "damaged" in maps.nth(0).inner_text()
-    with page.expect_file_chooser() as coming:
-        page.click("[data-add-maps]")
-    coming.value.set_files(paths[2])
+    choose(page, paths[2], button="[data-add-maps]")
     maps.nth(3).wait_for()
     page.click('[aria-label="show place 1.nc"]')
-    page.locator("[data-words=line-file]", has_text="place 1.nc").wait_for()
-    page.click("[data-press]:not([disabled])")
+    line_of(page, "file").filter(has_text="place 1.nc").wait_for()
+    page.click(READY)
     page.locator('[data-table="measured-part-answers"] tbody tr').first.wait_for()
     assert "broken.x3p" in page.text_content("#measured-step-answers")
     assert page.locator('[data-table="measured-part-leading"] tbody tr').count() == 3
@@ -367,16 +304,8 @@ def test_walk_over_maps_of_a_part_brought_checked_pressed_and_left_out(tab, tmp_
     assert maps.count() == 3
     assert "3 maps" in page.inner_text("[data-words=part-count]")
     page.click(LINE_SCAN)
-    page.locator("[data-words=line-file]", has_text="shaft").wait_for()
+    line_of(page, "file").filter(has_text="shaft").wait_for()
     assert not page.is_visible('[data-result="part"]')
-
-
-@pytest.mark.parametrize("name", FILES)
-def test_every_format_is_read(measured, topographies, name):
-    measured.set_input_files("#measured [data-file]", topographies / name)
-    measured.locator("[data-words=line-file]", has_text=name).wait_for()
-    measured.wait_for_selector('#measured-step-file:not(.dimmed) [data-result="file"]')
-    assert measured.locator('[data-table="measured-roughness"] tr').count() > 3
 
 
 @pytest.mark.parametrize(
@@ -388,27 +317,11 @@ def test_every_format_is_read(measured, topographies, name):
     ],
 )
 def test_what_is_no_topography_is_refused(measured, name, content, words):
-    bring(measured, name, content)
-    refused(measured, words)
+    file = {"name": name, "mimeType": "application/octet-stream", "buffer": content}
+    measured.set_input_files("#measured [data-file]", file)
+    sentence = measured.locator('#measured [data-error="file"]').filter(has_text=words)
+    assert not re.search(r"\n|/tmp|Traceback", sentence.inner_text())
     assert measured.locator("#measured [data-error] b").count() == 0
     measured.click(LINE_SCAN)
     measured.wait_for_selector('#measured-step-file:not(.dimmed) [data-result="file"]')
     measured.wait_for_selector('#measured [data-error="file"]:empty', state="attached")
-
-
-@pytest.mark.parametrize(
-    ("width", "theme", "example"), [(390, "light", LINE_SCAN), (1600, "dark", EXAMPLE)]
-)
-def test_it_is_seen_at_any_width_and_in_both_themes(pages, width, theme, example):
-    page = pages.open("?view=measured", width=width, theme=theme)
-    page.click(example)
-    page.wait_for_selector('#measured [data-result="file"]')
-    page.click("#measured-step-preparation > summary")
-    page.wait_for_selector('#measured [data-result="preparation"]')
-    assert cut_off(page, "measured", width) == []
-    assert faint(page) == []
-    if width == 1600:
-        wanted, reached, unseen = tabbed(page, "measured")
-        assert reached == wanted
-        assert unseen == []
-    page.context.close()

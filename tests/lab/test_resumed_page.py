@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from lab.measured_driven import READY, answers, choose, fill, line_of, press
 from lab.relay import Relay
 from lab_in_browser import NO_LINE, Pages, RunningLab
 
 NAME = "Ausschnitt, große Fläche; 1 (β).npy"
 OTHER = "another place.npy"
-SHOWN = '[data-result="answers"]:not(.dimmed) [data-table="measured-answers"] tbody tr'
 
 
 @pytest.fixture(scope="module")
@@ -42,22 +42,6 @@ def pages(browser, relay):
     opened.close()
 
 
-def choose(page, file):
-    """Choose a file by the button, as a person does."""
-    with page.expect_file_chooser() as coming:
-        page.click("[data-choose]")
-    coming.value.set_files(file)
-
-
-def fill(page, **texts):
-    for key, text in texts.items():
-        is_folded = not page.is_visible(f"#measured-{key}-text")
-        if key in ("low_pass", "resample") and is_folded:
-            page.click("#measured-step-preparation > summary")
-        page.fill(f"#measured-{key}-text", text)
-        page.press(f"#measured-{key}-text", "Tab")
-
-
 def said(page):
     """What is said of the file."""
     return page.inner_text('[data-note="file"]')
@@ -68,16 +52,11 @@ def is_set(page):
     return {key: page.input_value(f"#measured-{key}-text") for key in keys}
 
 
-def answers(page):
-    page.locator(SHOWN).first.wait_for()
-    return page.inner_text('[data-table="measured-answers"]')
-
-
 def begin_long_press(page):
     """Press the whole curve of points enough to be seen, and wait until it is on its way."""
     fill(page, loads="", resample="64")
     page.locator("[data-changed]").wait_for()
-    page.click("[data-press]:not([disabled])")
+    page.click(READY)
     page.wait_for_selector("#measured [data-waiting] .cancel")
 
 
@@ -100,8 +79,7 @@ def pressed(pages, files):
     page.wait_for_selector("#plot-measured-file >> nth=0", state="attached")
     choose(page, files[NAME])
     page.wait_for_selector('[data-asked="unit"]')
-    fill(page, **SET)
-    page.click("[data-press]:not([disabled])")
+    press(page, **SET)
     return page, answers(page)
 
 
@@ -118,8 +96,7 @@ def test_walk_with_a_line_that_drops_and_a_press_that_goes_on(pressed, pages, re
     page.wait_for_selector("#measured [data-waiting] .cancel", state="hidden")
     assert answers(page) != before
     assert said(page) == ""
-    fill(page, loads=SET["loads"], resample="")
-    page.click("[data-press]:not([disabled])")
+    press(page, loads=SET["loads"], resample="")
     page.wait_for_selector("[data-changed]", state="hidden")
     assert answers(page) == before
 
@@ -136,7 +113,7 @@ def test_walk_with_a_page_that_is_loaded_again_with_file_settings_answers_and_re
         page.wait_for_selector('[data-result="compare"]')
     page.reload()
     assert answers(page) == before
-    page.locator("[data-words=line-file]", has_text=NAME).wait_for()
+    line_of(page, "file").filter(has_text=NAME).wait_for()
     page.wait_for_selector('[data-result="preparation"]')
     assert is_set(page) == SET
     assert not page.is_visible("[data-changed]")
@@ -159,12 +136,10 @@ def test_a_page_that_is_loaded_again_in_another_view_shows_the_same(pressed):
 
 def test_a_page_that_is_loaded_again_in_the_middle_of_a_press_has_its_answer(pressed):
     page, before = pressed
-    fill(page, loads="")
-    page.click("[data-press]:not([disabled])")
+    press(page, loads="")
     page.reload()
     assert answers(page) != before
-    fill(page, loads=SET["loads"])
-    page.click("[data-press]:not([disabled])")
+    press(page, loads=SET["loads"])
     page.wait_for_selector("[data-changed]", state="hidden")
 
 
@@ -182,7 +157,7 @@ def test_a_link_has_all_that_is_set_and_asks_for_the_file_by_its_name(pressed, p
         if is_same:
             assert is_set(opened) == SET
             assert said(opened) == ""
-            opened.click("[data-press]:not([disabled])")
+            press(opened)
             assert answers(opened) == before
         else:
             assert f"This is not {NAME}: unit" in said(opened)
@@ -202,9 +177,9 @@ def test_a_copy_of_a_tab_takes_the_file_and_the_first_keeps_what_it_shows(presse
     page.locator('[data-note="file"]', has_text="now with the other tab").wait_for()
     assert page.inner_text('[data-table="measured-answers"]') == before
     assert page.is_disabled("[data-press]")
-    copied.wait_for_selector("[data-press]:not([disabled])")
+    copied.wait_for_selector(READY)
     choose(page, files[NAME])
-    page.click("[data-press]:not([disabled])")
+    page.click(READY)
     page.wait_for_selector('[data-result="answers"]:not(.dimmed)')
     assert answers(page) == before
     copied.click("[data-forget-file]")
@@ -239,7 +214,7 @@ def test_a_lab_that_is_started_anew_asks_for_token_and_file_and_keeps_the_rest(
         assert page.inner_text('[data-table="measured-answers"]') == before
         assert page.is_disabled("[data-press]")
         choose(page, files[NAME])
-        page.wait_for_selector("[data-press]:not([disabled])")
+        page.wait_for_selector(READY)
         assert is_set(page) == SET
         assert said(page) == ""
         assert not page.is_visible("[data-changed]")

@@ -1,9 +1,29 @@
 """What tests of the server share."""
 
+import asyncio
+import inspect
+
 import pytest
 
 from lab.server.serving import lab_here, running_lab
 from roughline.lab.server import files
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_pyfunc_call(pyfuncitem):
+    """Run a test that is a coroutine, in a loop of its own, in which nothing goes wrong unheard."""
+    if not inspect.iscoroutinefunction(pyfuncitem.obj):
+        return None
+    errors = []
+
+    async def tested():
+        asyncio.get_running_loop().set_exception_handler(lambda _, said: errors.append(said))
+        names = pyfuncitem._fixtureinfo.argnames
+        await pyfuncitem.obj(**{name: pyfuncitem.funcargs[name] for name in names})
+
+    asyncio.run(tested())
+    assert not errors
+    return True
 
 
 @pytest.fixture(scope="module")

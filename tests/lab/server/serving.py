@@ -5,8 +5,6 @@ import json
 import logging
 import os
 import signal
-import subprocess
-import sys
 import time
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import asynccontextmanager, contextmanager, suppress
@@ -20,6 +18,7 @@ from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.netutil import bind_sockets
 from tornado.websocket import websocket_connect
 
+from lab_in_browser import RunningLab
 from reference import patience
 from roughline.lab.server.process import start_forking
 from roughline.lab.server.serve import taking
@@ -35,29 +34,19 @@ def running_lab(*options, temporary, closes=True, files=None, statements=()):
 
     It may open a number of files, and does some statements before anything else.
     """
-    program = ["-c", "; ".join([*statements, "from roughline.cli import main", "main()"])]
-    program = program if statements else ["-m", "roughline"]
-    command = [sys.executable, *program, "lab", "--no-browser", "--port", "0", *options]
+    lines = "; ".join([*statements, "from roughline.cli import main", "main()"])
     log = Path(temporary) / "errors.txt"
-    with (
-        log.open("w") as errors,
-        subprocess.Popen(
-            command,
-            stdout=subprocess.PIPE,
-            stderr=errors,
-            text=True,
-            env=os.environ | {"TMPDIR": str(temporary)},
-            preexec_fn=partial(_allow_files, files) if files else None,
-        ) as process,
-    ):
-        try:
-            first = process.stdout.readline()
-            assert " at http" in first, first + log.read_text()
-            lab = Lab(first.split(" at ")[1].split(" ")[0], process, Path(temporary), log)
-            yield lab
-        finally:
-            process.send_signal(signal.SIGINT if closes else signal.SIGKILL)
-            process.wait(patience())
+    running = RunningLab(
+        log,
+        *options,
+        program=("-c", lines) if statements else ("-m", "roughline"),
+        env=os.environ | {"TMPDIR": str(temporary)},
+        preexec_fn=partial(_allow_files, files) if files else None,
+    )
+    try:
+        yield Lab(running.address, running.process, Path(temporary), log)
+    finally:
+        running.close(signal.SIGINT if closes else signal.SIGKILL)
 
 
 def _allow_files(number):
@@ -252,11 +241,6 @@ async def becomes(is_so):
     while not is_so():
         assert time.monotonic() < end
         await asyncio.sleep(0.01)
-
-
-def run(scenario):
-    """Run a scenario."""
-    asyncio.run(scenario())
 
 
 async def upload(lab, token, content, name, origin=None):

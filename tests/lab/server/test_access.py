@@ -9,7 +9,7 @@ from urllib.parse import unquote, urlencode, urlsplit
 import pytest
 from tornado.httpclient import HTTPClientError
 
-from lab.server.serving import lab_here, run, upload
+from lab.server.serving import lab_here, upload
 from roughline.errors import InputError
 from roughline.lab.server import opening
 from roughline.lab.server.access import cookie_name, host_is_ours, opens, origin_is_ours
@@ -85,102 +85,90 @@ def test_this_machine_alone_is_reached_by_its_own_addresses(host):
 
 
 @on_unix
-def test_pages_of_others_are_refused(here):
-    async def scenario():
-        port = here.address.rpartition(":")[2]
-        for host in (f"rebound.example:{port}", f"127.0.0.1.example:{port}", "[::1"):
-            for path in ("/", "/lab/lab.js", "/here", "/nothing"):
-                answer = await here.fetch(path, headers={"Host": host})
-                assert answer.code in (400, 403), (host, path)
-        for origin in ("http://evil.example", "null", f"http://localhost:{port}", "http://["):
-            for method, path, body in (("GET", "/here", None), ("POST", "/", "")):
-                said = {"method": method, "body": body, "headers": {"Origin": origin}}
-                assert (await here.fetch(path, **said)).code == 403
-            with pytest.raises(HTTPClientError, match="403"):
-                async with here.page({"Origin": origin}):
-                    pass
-        assert (await here.fetch("/", method="POST", body="")).code == 403
+async def test_pages_of_others_are_refused(here):
+    port = here.address.rpartition(":")[2]
+    for host in (f"rebound.example:{port}", f"127.0.0.1.example:{port}", "[::1"):
+        for path in ("/", "/lab/lab.js", "/here", "/nothing"):
+            answer = await here.fetch(path, headers={"Host": host})
+            assert answer.code in (400, 403), (host, path)
+    for origin in ("http://evil.example", "null", f"http://localhost:{port}", "http://["):
+        for method, path, body in (("GET", "/here", None), ("POST", "/", "")):
+            said = {"method": method, "body": body, "headers": {"Origin": origin}}
+            assert (await here.fetch(path, **said)).code == 403
         with pytest.raises(HTTPClientError, match="403"):
-            async with here.page({}):
+            async with here.page({"Origin": origin}):
                 pass
-
-    run(scenario)
+    assert (await here.fetch("/", method="POST", body="")).code == 403
+    with pytest.raises(HTTPClientError, match="403"):
+        async with here.page({}):
+            pass
 
 
 @on_unix
-def test_who_has_no_token_is_unknown_and_gets_static_parts_alone(here):
-    async def scenario():
-        for path in ("/", "/results/a/b"):
-            assert (await here.fetch(path, headers=NOBODY)).code == 401, path
-        for path in ("/lab/lab.js", "/lab/icon.svg", "/bokeh/bokeh.min.js"):
-            assert (await here.fetch(path, headers=NOBODY)).code == 200, path
-        with pytest.raises(HTTPClientError, match="401"):
-            async with here.page({"Origin": here.address, **NOBODY}):
-                pass
-        async with here.page() as page:
-            own, here.cookie = here.cookie, ""
-            assert (await upload(here, page.token, b"1", "a")).code == 401
-            here.cookie = own
-            assert (await upload(here, page.token, b"1", "a")).code == 200
-        for headers, said in ((NOBODY, b"unknown"), ({}, b"known")):
-            told = await here.fetch("/here", headers=headers)
-            assert (told.code, told.body) == (200, said)
-            nothing = await here.fetch("/nothing", headers=headers)
-            assert (nothing.code, nothing.body) == (404, b"404: unknown\n")
-
-    run(scenario)
+async def test_who_has_no_token_is_unknown_and_gets_static_parts_alone(here):
+    for path in ("/", "/results/a/b"):
+        assert (await here.fetch(path, headers=NOBODY)).code == 401, path
+    for path in ("/lab/lab.js", "/lab/icon.svg", "/bokeh/bokeh.min.js"):
+        assert (await here.fetch(path, headers=NOBODY)).code == 200, path
+    with pytest.raises(HTTPClientError, match="401"):
+        async with here.page({"Origin": here.address, **NOBODY}):
+            pass
+    async with here.page() as page:
+        own, here.cookie = here.cookie, ""
+        assert (await upload(here, page.token, b"1", "a")).code == 401
+        here.cookie = own
+        assert (await upload(here, page.token, b"1", "a")).code == 200
+    for headers, said in ((NOBODY, b"unknown"), ({}, b"known")):
+        told = await here.fetch("/here", headers=headers)
+        assert (told.code, told.body) == (200, said)
+        nothing = await here.fetch("/nothing", headers=headers)
+        assert (nothing.code, nothing.body) == (404, b"404: unknown\n")
 
 
 @on_unix
-def test_the_address_with_the_token_opens_the_lab_and_leads_to_the_same_without_it(here):
+async def test_the_address_with_the_token_opens_the_lab_and_leads_to_the_same_without_it(here):
     token = urlsplit(here.opened).query
 
-    async def scenario():
-        for query in (f"{token}&{STATE}", f"{STATE}&{token}", f"{STATE}&%74{token[1:]}"):
-            answer = await here.fetch(f"/?{query}", headers=NOBODY)
-            assert answer.headers["Location"] == f"./?{STATE}"
-            said = answer.headers["Set-Cookie"]
-            flags = {*said.split("; ")}
-            assert {"HttpOnly", "SameSite=Lax", "Path=/"} <= flags
-            assert "Secure" not in flags
-        cookie = {"Cookie": said.partition(";")[0]}
-        assert (await here.fetch(f"/?{STATE}", headers=cookie)).code == 200
-        again = await here.fetch(f"/?{token}&{STATE}", headers=cookie)
-        assert again.headers["Location"] == f"./?{STATE}"
-        assert "Set-Cookie" not in again.headers
-        assert (await here.fetch(f"/?{token}", headers=NOBODY)).headers["Location"] == "./"
-
-    run(scenario)
+    for query in (f"{token}&{STATE}", f"{STATE}&{token}", f"{STATE}&%74{token[1:]}"):
+        answer = await here.fetch(f"/?{query}", headers=NOBODY)
+        assert answer.headers["Location"] == f"./?{STATE}"
+        said = answer.headers["Set-Cookie"]
+        flags = {*said.split("; ")}
+        assert {"HttpOnly", "SameSite=Lax", "Path=/"} <= flags
+        assert "Secure" not in flags
+    cookie = {"Cookie": said.partition(";")[0]}
+    assert (await here.fetch(f"/?{STATE}", headers=cookie)).code == 200
+    again = await here.fetch(f"/?{token}&{STATE}", headers=cookie)
+    assert again.headers["Location"] == f"./?{STATE}"
+    assert "Set-Cookie" not in again.headers
+    assert (await here.fetch(f"/?{token}", headers=NOBODY)).headers["Location"] == "./"
 
 
 @on_unix
-def test_who_has_no_token_is_told_where_it_stands_and_comes_back_to_the_same_state(here):
+async def test_who_has_no_token_is_told_where_it_stands_and_comes_back_to_the_same_state(here):
     async def posted(token, address=f"/?{STATE}"):
         body = urlencode({"token": token})
         headers = {"Origin": here.address, **NOBODY}
         return await here.fetch(address, method="POST", body=body, headers=headers)
 
-    async def scenario():
-        asked = await here.fetch(f"/?{STATE}", headers=NOBODY)
-        assert asked.code == 401
-        assert "in the terminal where <code>roughline lab</code>" in asked.body.decode()
-        for wrong in ("", "0" * 32, "token=", here.opened[:-1], "<script>"):
-            refused = await posted(wrong)
-            assert refused.code == 403
-            assert b"This is not the token of the lab that runs now." in refused.body
-            assert b"<script>" not in refused.body
-        for right in (here.opened, f" {here.opened.partition('=')[2]}\n", f"{here.opened}&n=64"):
-            entered = await posted(right)
-            assert (entered.code, entered.headers["Location"]) == (303, f"./?{STATE}")
-        for path in ("//evil.example", "//evil.example/?a=1", "/\\evil.example"):
-            led = await posted(here.opened, path)
-            assert led.code in (403, 404, 405) or led.headers["Location"].startswith("./")
-
-    run(scenario)
+    asked = await here.fetch(f"/?{STATE}", headers=NOBODY)
+    assert asked.code == 401
+    assert "in the terminal where <code>roughline lab</code>" in asked.body.decode()
+    for wrong in ("", "0" * 32, "token=", here.opened[:-1], "<script>"):
+        refused = await posted(wrong)
+        assert refused.code == 403
+        assert b"This is not the token of the lab that runs now." in refused.body
+        assert b"<script>" not in refused.body
+    for right in (here.opened, f" {here.opened.partition('=')[2]}\n", f"{here.opened}&n=64"):
+        entered = await posted(right)
+        assert (entered.code, entered.headers["Location"]) == (303, f"./?{STATE}")
+    for path in ("//evil.example", "//evil.example/?a=1", "/\\evil.example"):
+        led = await posted(here.opened, path)
+        assert led.code in (403, 404, 405) or led.headers["Location"].startswith("./")
 
 
 @on_unix
-def test_labs_of_one_machine_do_not_shut_each_other_out(here):
+async def test_labs_of_one_machine_do_not_shut_each_other_out(here):
     """Their cookies go to all of them, because cookies know no ports."""
     token = here.opened.partition("?")[2]
     assert cookie_name("127.0.0.1:1") != cookie_name("127.0.0.1:2") != cookie_name("127.0.0.1")
@@ -188,21 +176,18 @@ def test_labs_of_one_machine_do_not_shut_each_other_out(here):
     async def told(**headers):
         return (await here.fetch("/here", headers=headers)).body
 
-    async def scenario():
-        for host in ("127.0.0.1:8000", "127.0.0.1:8001", "127.0.0.1"):  # such as through tunnels
-            answer = await here.fetch(f"/?{token}", headers={"Host": host, **NOBODY})
-            cookie = answer.headers["Set-Cookie"].partition(";")[0]
-            assert await told(Cookie=f"{here.cookie}; {cookie}") == b"known"
-            assert await told(Cookie=f"{here.cookie}; {cookie}", Host=host) == b"known"
-            assert await told(Cookie=cookie) == b"unknown"
-
-    run(scenario)
+    for host in ("127.0.0.1:8000", "127.0.0.1:8001", "127.0.0.1"):  # such as through tunnels
+        answer = await here.fetch(f"/?{token}", headers={"Host": host, **NOBODY})
+        cookie = answer.headers["Set-Cookie"].partition(";")[0]
+        assert await told(Cookie=f"{here.cookie}; {cookie}") == b"known"
+        assert await told(Cookie=f"{here.cookie}; {cookie}", Host=host) == b"known"
+        assert await told(Cookie=cookie) == b"unknown"
 
 
 @on_unix
 @pytest.mark.parametrize("path", ["", PATH], ids=["of its own", "of a JupyterHub"])
-def test_pages_of_a_proxy_are_answered_whatever_name_it_calls(path, tmp_path):
-    async def scenario():
+async def test_pages_of_a_proxy_are_answered_whatever_name_it_calls(path, tmp_path):
+    with lab_here(tmp_path, address=f"{HUB}{path}") as lab:
         token = urlsplit(lab.opened).query
         for host in ("hub.example.org", "127.0.0.1:5107"):
             asked = {"Host": host, "Cookie": ""}
@@ -218,9 +203,6 @@ def test_pages_of_a_proxy_are_answered_whatever_name_it_calls(path, tmp_path):
             page = (await lab.fetch("/", headers=through)).body.decode()
             assert 'href="/' not in page
             assert 'src="/' not in page
-
-    with lab_here(tmp_path, address=f"{HUB}{path}") as lab:
-        run(scenario)
 
 
 @on_unix

@@ -9,7 +9,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from lab.server.serving import held, run, running_lab, upload, wait_until
+from lab.server.serving import held, running_lab, upload, wait_until
 from reference import patience
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="limits of Linux")
@@ -32,7 +32,7 @@ def half_open(lab, number):
     return held_open
 
 
-def test_while_all_places_are_held_an_open_page_goes_on_and_then_others_come(small_lab):
+async def test_while_all_places_are_held_an_open_page_goes_on_and_then_others_come(small_lab):
     process = psutil.Process(small_lab.process.pid)
 
     def is_at_rest():
@@ -40,22 +40,19 @@ def test_while_all_places_are_held_an_open_page_goes_on_and_then_others_come(sma
         time.sleep(0.5)
         return sum(process.cpu_times()[:2]) - before < 0.1
 
-    async def scenario():
-        async with small_lab.page() as page:
-            await upload(small_lab, page.token, b"1 2", "a.txt")
-            await page.ask("explore.code", state={"n": "64"})
-            await page.answer()
-            before = held(small_lab)[1]
-            with half_open(small_lab, FILES):
-                wait_until(lambda: len(process.net_connections()) > FILES // 2)
-                wait_until(is_at_rest)
-                for number in (2, 3):
-                    await page.ask("explore.code", state={"n": "64"})
-                    assert (await page.answer())[0] == number
-                assert held(small_lab)[1] - before < 40e6
-                assert len(list(Path(small_lab.folder, page.token).iterdir())) == 1
-            wait_until(lambda: len(process.net_connections()) < 10)
-            assert (await small_lab.fetch("/")).code == 200
-        assert small_lab.log.stat().st_size < 2000
-
-    run(scenario)
+    async with small_lab.page() as page:
+        await upload(small_lab, page.token, b"1 2", "a.txt")
+        await page.ask("explore.code", state={"n": "64"})
+        await page.answer()
+        before = held(small_lab)[1]
+        with half_open(small_lab, FILES):
+            wait_until(lambda: len(process.net_connections()) > FILES // 2)
+            wait_until(is_at_rest)
+            for number in (2, 3):
+                await page.ask("explore.code", state={"n": "64"})
+                assert (await page.answer())[0] == number
+            assert held(small_lab)[1] - before < 40e6
+            assert len(list(Path(small_lab.folder, page.token).iterdir())) == 1
+        wait_until(lambda: len(process.net_connections()) < 10)
+        assert (await small_lab.fetch("/")).code == 200
+    assert small_lab.log.stat().st_size < 2000

@@ -3,6 +3,7 @@
 import asyncio
 import sys
 import threading
+from contextlib import asynccontextmanager
 
 import psutil
 import pytest
@@ -71,27 +72,23 @@ def _doings():
         yield
 
 
-def run(scenario, *, lasting, count=COUNT, memory=MEMORY):
-    """Run a scenario with a lane, and check that nothing is left of it."""
-    errors = []
-
-    async def main():
-        asyncio.get_running_loop().set_exception_handler(lambda _, said: errors.append(said))
-        lane = Lane(count, memory, lasting=lasting)
-        try:
-            await asyncio.wait_for(scenario(lane, Asker(lane)), patience())
-        finally:
-            left = pids(lane)
-            await lane.close()
-        await becomes(lambda: not any(psutil.pid_exists(pid) for pid in left))
-
-    asyncio.run(main())
-    assert not errors
+@asynccontextmanager
+async def laned(*, lasting, count=COUNT, memory=MEMORY):
+    """Who asks a lane, of which nothing is left then."""
+    lane = Lane(count, memory, lasting=lasting)
+    try:
+        async with asyncio.timeout(patience()):
+            yield Asker(lane)
+    finally:
+        left = pids(lane)
+        await lane.close()
+    await becomes(lambda: not any(psutil.pid_exists(pid) for pid in left))
 
 
 @pytest.mark.parametrize("lasting", [True, False])
-def test_what_reads_no_file_shares_processes_until_they_are_renewed(lasting):
-    async def scenario(lane, asker):
+async def test_what_reads_no_file_shares_processes_until_they_are_renewed(lasting):
+    async with laned(lasting=lasting) as asker:
+
         async def used(name, task="echo"):
             asker.ask(task, slot=name, say=name)
             said, pid = (await asker.of(name)).answer.split()
@@ -101,14 +98,12 @@ def test_what_reads_no_file_shares_processes_until_they_are_renewed(lasting):
         shared = set()
         for number in range(6):
             shared.add(pid := await used(str(number)))
-            await becomes(lambda pid=pid: pid in pids(lane))  # it stands by again
+            await becomes(lambda pid=pid: pid in pids(asker.lane))  # it stands by again
         assert len(shared) <= COUNT
-        lane.renew()
+        asker.lane.renew()
         assert await used("renewed") not in shared
         if not lasting:
             assert len({await used(f"read{number}", "read") for number in range(6)}) == 6
-
-    run(scenario, lasting=lasting)
 
 
 @pytest.mark.parametrize(
@@ -124,35 +119,33 @@ def test_what_reads_no_file_shares_processes_until_they_are_renewed(lasting):
         ("cannot be sent", "ended unexpectedly", ""),
     ],
 )
-def test_what_goes_wrong_is_one_sentence_and_the_next_question_is_answered(task, sentence, at):
-    async def scenario(lane, asker):
-        asker.ask(task, bytes=3_000_000_000 if task in vars(doings) else lambda: None)
-        outcome = await asker.of("slot")
-        assert outcome.answer is None
-        assert sentence in outcome.error
-        assert outcome.at == at
-        assert "/" not in outcome.error
-        asker.ask("echo", slot="next", say="next")
-        assert (await asker.of("next")).answer.startswith(b"next")
-
+async def test_what_goes_wrong_is_one_sentence_and_the_next_question_is_answered(
+    task, sentence, at
+):
     for lasting in (True, False):
-        run(scenario, lasting=lasting)
+        async with laned(lasting=lasting) as asker:
+            asker.ask(task, bytes=3_000_000_000 if task in vars(doings) else lambda: None)
+            outcome = await asker.of("slot")
+            assert outcome.answer is None
+            assert sentence in outcome.error
+            assert outcome.at == at
+            assert "/" not in outcome.error
+            asker.ask("echo", slot="next", say="next")
+            assert (await asker.of("next")).answer.startswith(b"next")
 
 
-def test_progress_is_told_until_the_answer():
-    async def scenario(lane, asker):
+async def test_progress_is_told_until_the_answer():
+    async with laned(lasting=False) as asker:
         asker.ask("sleep", seconds=0.1)
         assert (await asker.of("slot")).answer == b"slept"
         assert asker.steps["slot"][-1] == (100, 100)
 
-    run(scenario, lasting=False)
 
-
-def test_the_latest_question_wins_and_those_replaced_leave_nothing_behind():
-    async def scenario(lane, asker):
+async def test_the_latest_question_wins_and_those_replaced_leave_nothing_behind():
+    async with laned(lasting=False) as asker:
         asker.ask("echo", name="first", say="")
         await asker.of("first")
-        await lane.prepare()
+        await asker.lane.prepare()
         me = psutil.Process()
         before, threads_before = me.num_fds(), threading.active_count()
         for number in range(100):
@@ -161,17 +154,14 @@ def test_the_latest_question_wins_and_those_replaced_leave_nothing_behind():
         asker.ask("echo", name="last", say="last")
         assert (await asker.of("last")).answer.startswith(b"last")
         assert list(asker.outcomes) == ["first", "last"]
-        await becomes(lambda: len(pids(lane)) <= 2 and not lane._served)
+        await becomes(lambda: len(pids(asker.lane)) <= 2 and not asker.lane._served)
         await becomes(lambda: me.num_fds() <= before + 8)
         assert threading.active_count() <= threads_before + 2 * COUNT + 2
 
-    run(scenario, lasting=False)
 
-
-def test_a_lasting_process_answers_while_a_slider_moves(tmp_path):
+async def test_a_lasting_process_answers_while_a_slider_moves(tmp_path):
     """The one that runs and the last one are answered; those between are replaced."""
-
-    async def scenario(lane, asker):
+    async with laned(lasting=True) as asker:
         asker.ask("last", name="first", until=str(tmp_path / "end"))
         await asker.begun("first")
         for number in range(20):
@@ -180,74 +170,66 @@ def test_a_lasting_process_answers_while_a_slider_moves(tmp_path):
         await asker.of(19)
         assert list(asker.outcomes) == ["first", 19]
 
-    run(scenario, lasting=True)
-
 
 @pytest.mark.parametrize("lasting", [True, False])
-def test_a_withdrawn_question_is_not_answered_and_a_new_one_in_its_place_is(lasting, tmp_path):
-    async def scenario(lane, asker):
+async def test_a_withdrawn_question_is_not_answered_and_a_new_one_in_its_place_is(
+    lasting, tmp_path
+):
+    async with laned(lasting=lasting) as asker:
         asker.ask("last", name="withdrawn", until=str(tmp_path / "first"))
         await asker.begun("withdrawn")
-        lane.withdraw("session", "slot")
+        asker.lane.withdraw("session", "slot")
         asker.ask("last", name="new", until=str(tmp_path / "second"))
         await asker.begun("new")
         (tmp_path / "first").touch()
-        await becomes(lambda: len(lane._served) == 1)
+        await becomes(lambda: len(asker.lane._served) == 1)
         (tmp_path / "second").touch()
         assert (await asker.of("new")).answer == b"lasted"
         assert list(asker.outcomes) == ["new"]
 
-    run(scenario, lasting=lasting)
 
-
-def test_a_stopped_task_frees_its_core(tmp_path):
-    async def scenario(lane, asker):
+async def test_a_stopped_task_frees_its_core(tmp_path):
+    async with laned(lasting=False) as asker:
         mark = tmp_path / "mark"
         asker.ask("compute", mark=str(mark))
         await becomes(lambda: mark.exists() and mark.read_text())
         pid = int(mark.read_text())
-        lane.withdraw("session")
+        asker.lane.withdraw("session")
         await becomes(lambda: not psutil.pid_exists(pid))
         assert not asker.outcomes
 
-    run(scenario, lasting=False)
 
-
-def test_the_process_that_forks_has_one_thread():
+async def test_the_process_that_forks_has_one_thread():
     """A fork waits for the threads of the transforms, which may not end."""
     if not processes._FORKS:
         pytest.skip("nothing forks here")
     from multiprocessing import forkserver
 
-    async def scenario(lane, asker):
-        await lane.prepare()
+    async with laned(lasting=False) as asker:
+        await asker.lane.prepare()
         asker.ask("echo", say="alive")
         await asker.of("slot")
         assert psutil.Process(forkserver._forkserver._forkserver_pid).num_threads() == 1
 
-    run(scenario, lasting=False)
-
 
 @pytest.mark.parametrize("lasting", [True, False])
-def test_a_question_in_the_place_of_one_that_waits_keeps_its_turn(lasting):
-    async def scenario(lane, asker):
+async def test_a_question_in_the_place_of_one_that_waits_keeps_its_turn(lasting):
+    async with laned(lasting=lasting, count=1) as asker:
         asker.ask("echo", name="first", session="a", say="first")
         for name, session in (("replaced", "b"), ("last", "c"), ("new", "b")):
             asker.ask("echo", name=name, session=session, say=name)
         await asker.of("last")
         assert list(asker.outcomes) == ["first", "new", "last"]
 
-    run(scenario, lasting=lasting, count=1)
-
 
 @pytest.mark.parametrize("lasting", [True, False])
 @pytest.mark.parametrize("lost", ["those that stand by", "the one that forks"])
-def test_the_loss_of_processes_is_survived(lasting, lost):
+async def test_the_loss_of_processes_is_survived(lasting, lost):
     from multiprocessing import forkserver
 
-    async def scenario(lane, asker):
-        await lane.prepare()
-        before = killed = [psutil.Process(pid) for pid in pids(lane)]
+    async with laned(lasting=lasting) as asker:
+        await asker.lane.prepare()
+        before = killed = [psutil.Process(pid) for pid in pids(asker.lane)]
         if lost == "the one that forks":  # with which those that it forked end
             killed = [psutil.Process(forkserver._forkserver._forkserver_pid)]
         for each in killed:
@@ -256,13 +238,11 @@ def test_the_loss_of_processes_is_survived(lasting, lost):
         for number in range(4):
             asker.ask("echo", slot=f"{number}", say="alive")
             assert (await asker.of(f"{number}")).answer.startswith(b"alive")
-        await lane.prepare()
-        await becomes(lambda: not any(map(alive_still, before)) and len(pids(lane)) == COUNT)
-
-    run(scenario, lasting=lasting)
+        await asker.lane.prepare()
+        await becomes(lambda: not any(map(alive_still, before)) and len(pids(asker.lane)) == COUNT)
 
 
-def test_an_answer_is_read_to_its_end_while_its_request_is_withdrawn():
+async def test_an_answer_is_read_to_its_end_while_its_request_is_withdrawn():
     class Slow:
         """A connection from which an answer is read slowly."""
 
@@ -281,14 +261,14 @@ def test_an_answer_is_read_to_its_end_while_its_request_is_withdrawn():
 
     begun, stopped = threading.Event(), threading.Event()
 
-    async def scenario(lane, asker):
+    async with laned(lasting=False) as asker:
         asker.ask("sleep", seconds=LONG)
         await asker.begun("slot")
-        (request,) = lane._served
+        (request,) = asker.lane._served
         slow = request.process._connection = Slow(request.process._connection)
         assert await asyncio.to_thread(begun.wait, patience())
         process = psutil.Process(request.process._process.pid)
-        withdrawn = lane.withdraw("session")
+        withdrawn = asker.lane.withdraw("session")
         await becomes(lambda: not alive_still(process))
         stopped.set()
         await asyncio.gather(*withdrawn)
@@ -297,16 +277,14 @@ def test_an_answer_is_read_to_its_end_while_its_request_is_withdrawn():
         assert not psutil.pid_exists(process.pid)
         assert not asker.outcomes
 
-    run(scenario, lasting=False)
 
-
-def test_no_process_to_be_had_is_one_sentence(monkeypatch):
+async def test_no_process_to_be_had_is_one_sentence(monkeypatch):
     told = []
 
     def refuse(*arguments, **options):
         raise BlockingIOError(11, "no more processes")
 
-    async def scenario(lane, asker):
+    async with laned(lasting=False) as asker:
         monkeypatch.setattr(processes.Process, "_begin", refuse)
         monkeypatch.setattr(lanes._log, "exception", lambda *_: told.append(str(sys.exception())))
         asker.ask("echo", say="alive")
@@ -314,22 +292,18 @@ def test_no_process_to_be_had_is_one_sentence(monkeypatch):
         monkeypatch.undo()
         asker.ask("echo", slot="next", say="alive")
         assert (await asker.of("next")).answer.startswith(b"alive")
-
-    run(scenario, lasting=False)
     assert len(told) == 1
     assert "no more processes" in told[0]
 
 
-def test_without_forking_processes_are_spawned(monkeypatch):
+async def test_without_forking_processes_are_spawned(monkeypatch):
     import multiprocessing
 
     monkeypatch.setattr(processes, "_CONTEXT", multiprocessing.get_context("spawn"))
 
-    async def scenario(lane, asker):
+    async with laned(lasting=True, count=1, memory=2e9) as asker:
         asker.ask("echo", say="spawned")
         assert (await asker.of("slot")).answer.startswith(b"spawned")
-
-    run(scenario, lasting=True, count=1, memory=2e9)
 
 
 def test_names_stand_for_paths_in_sentences():

@@ -1,6 +1,5 @@
 """Sessions that wait for their pages: what goes on, and how long."""
 
-import asyncio
 import json
 import sys
 
@@ -39,24 +38,14 @@ def _sweeps(monkeypatch):
     monkeypatch.setattr(sessions, "_SWEEP_INTERVAL", 0.02)
 
 
-def run(scenario, folder):
-    """Run a scenario with a lab whose tasks end when a test says so, and with its server."""
-
-    async def main():
-        async with opened(folder, (Lane(), Lane())) as (lab, server):
-            await scenario(lab, server)
-
-    asyncio.run(main())
-
-
 async def dropped(server, page):
     """Drop the line of a page, and wait until the server knows."""
     page.drop()
     await becomes(lambda: getattr(server.sessions.get(page.token), "line", None) is None)
 
 
-def test_what_runs_while_the_line_is_down_is_answered_after_it_and_not_done_twice(tmp_path):
-    async def scenario(lab, server):
+async def test_what_runs_while_the_line_is_down_is_answered_after_it_and_not_done_twice(tmp_path):
+    async with opened(tmp_path, (Lane(), Lane())) as (lab, server):
         async with lab.page() as page:
             assert page.said["resumed"] is False
             await upload(lab, page.token, b"1 2", "a.txt")
@@ -83,25 +72,20 @@ def test_what_runs_while_the_line_is_down_is_answered_after_it_and_not_done_twic
             running.answer(TaskOutcome(error="went on"))
             assert await again.answer() == (number, "went on")
 
-    run(scenario, tmp_path)
+
+async def test_what_a_page_says_of_its_session_does_not_count(tmp_path):
+    async with opened(tmp_path, (Lane(), Lane())) as (lab, server), lab.page() as page:
+        await page.ask("explore.full", state={}, session={"folder": "/etc", "names": None})
+        await becomes(lambda: server.slow.requests)
+        told = server.slow.requests[0].arguments
+        assert told["state"] == {}
+        assert told["session"]["folder"] == str(server.root / page.token)
 
 
-def test_what_a_page_says_of_its_session_does_not_count(tmp_path):
-    async def scenario(lab, server):
-        async with lab.page() as page:
-            await page.ask("explore.full", state={}, session={"folder": "/etc", "names": None})
-            await becomes(lambda: server.slow.requests)
-            told = server.slow.requests[0].arguments
-            assert told["state"] == {}
-            assert told["session"]["folder"] == str(server.root / page.token)
-
-    run(scenario, tmp_path)
-
-
-def test_a_session_ends_with_its_time_and_at_once_if_it_has_nothing(tmp_path, monkeypatch):
+async def test_a_session_ends_with_its_time_and_at_once_if_it_has_nothing(tmp_path, monkeypatch):
     monkeypatch.setattr(sessions, "_PAGE_WITHIN", 0.2)
 
-    async def scenario(lab, server):
+    async with opened(tmp_path, (Lane(), Lane())) as (lab, server):
         async with lab.page() as page, lab.page() as bare:
             await upload(lab, page.token, b"1 2", "a.txt")
             before = server.slow.renewed  # as often as it was looked when no page was open
@@ -117,11 +101,11 @@ def test_a_session_ends_with_its_time_and_at_once_if_it_has_nothing(tmp_path, mo
                 assert fresh.said["resumed"] is False
                 assert fresh.token != token
 
-    run(scenario, tmp_path)
 
-
-def test_a_page_that_is_left_stops_its_work_soon_unless_it_is_loaded_again(tmp_path, monkeypatch):
-    async def scenario(lab, server):
+async def test_a_page_that_is_left_stops_its_work_soon_unless_it_is_loaded_again(
+    tmp_path, monkeypatch
+):
+    async with opened(tmp_path, (Lane(), Lane())) as (lab, server):
         async with lab.page() as page:
             await page.ask("explore.full")
             await becomes(lambda: server.slow.requests)
@@ -133,41 +117,37 @@ def test_a_page_that_is_left_stops_its_work_soon_unless_it_is_loaded_again(tmp_p
         await becomes(lambda: (page.token, None) in server.slow.withdrawn)
         await becomes(lambda: not server.sessions)
 
-    run(scenario, tmp_path)
+
+async def test_a_page_takes_over_from_another_that_is_told_so(tmp_path):
+    async with (
+        opened(tmp_path, (Lane(), Lane())) as (lab, server),
+        lab.page() as page,
+        lab.page(before=page.token) as copied,
+    ):
+        assert copied.said["resumed"] is True
+        assert await page.heard() is None
+        assert page.socket.close_code == 4001
+        await copied.ask("explore.code")
+        await becomes(lambda: server.quick.requests)
+        server.quick.requests[0].answer(TaskOutcome(error="told to the other"))
+        assert (await copied.answer())[1] == "told to the other"
+        assert list(server.sessions) == [copied.token]
 
 
-def test_a_page_takes_over_from_another_that_is_told_so(tmp_path):
-    async def scenario(lab, server):
-        async with lab.page() as page, lab.page(before=page.token) as copied:
-            assert copied.said["resumed"] is True
-            assert await page.heard() is None
-            assert page.socket.close_code == 4001
-            await copied.ask("explore.code")
-            await becomes(lambda: server.quick.requests)
-            server.quick.requests[0].answer(TaskOutcome(error="told to the other"))
-            assert (await copied.answer())[1] == "told to the other"
-            assert list(server.sessions) == [copied.token]
-
-    run(scenario, tmp_path)
-
-
-def test_a_page_that_vanishes_without_a_word_is_closed(tmp_path, monkeypatch):
+async def test_a_page_that_vanishes_without_a_word_is_closed(tmp_path, monkeypatch):
     monkeypatch.setattr("roughline.lab.server.handlers._PONG_WITHIN", 0.3)
     monkeypatch.setattr(sessions, "_PAGE_WITHIN", 0.3)
 
-    async def scenario(lab, server):
-        async with lab.page() as page:
-            handle, pings = page.socket.protocol._handle_message, []
+    async with opened(tmp_path, (Lane(), Lane())) as (lab, server), lab.page() as page:
+        handle, pings = page.socket.protocol._handle_message, []
 
-            def noted(opcode, data):
-                pings.extend([data] * (opcode == 0x9))
-                return handle(opcode, data)
+        def noted(opcode, data):
+            pings.extend([data] * (opcode == 0x9))
+            return handle(opcode, data)
 
-            page.socket.protocol._handle_message = noted
-            await becomes(lambda: len(pings) >= 2)
-            assert page.token in server.sessions
-            await upload(lab, page.token, b"1 2", "a.txt")
-            page.socket.protocol._handle_message = lambda opcode, data: None  # nor any pong
-            await becomes(lambda: not server.sessions and not list(server.root.iterdir()))
-
-    run(scenario, tmp_path)
+        page.socket.protocol._handle_message = noted
+        await becomes(lambda: len(pings) >= 2)
+        assert page.token in server.sessions
+        await upload(lab, page.token, b"1 2", "a.txt")
+        page.socket.protocol._handle_message = lambda opcode, data: None  # nor any pong
+        await becomes(lambda: not server.sessions and not list(server.root.iterdir()))

@@ -1,5 +1,6 @@
 """How the lab starts, refuses to, and ends."""
 
+import asyncio
 import gc
 import json
 import os
@@ -11,7 +12,7 @@ import sys
 import psutil
 import pytest
 
-from lab.server.serving import alive_still, run, running_lab, upload, wait_until
+from lab.server.serving import alive_still, running_lab, upload, wait_until
 from reference import patience
 from roughline.lab.server.process import noted_interrupts
 
@@ -38,9 +39,9 @@ def stopped_with_pages_open(lab, stop):
         lab.process.wait(patience())
         wait_until(lambda: not any(child.is_running() for child in children))
 
-    run(scenario)
+    asyncio.run(scenario())
     assert lab.process.returncode == 0
-    assert lab.process.stdout.read() == "The lab is closed.\n"
+    assert lab.process.stdout.read() == b"The lab is closed.\n"
     for word in ("Task was", "never retrieved", "KeyboardInterrupt", "ignored", "tornado"):
         assert word not in lab.log.read_text()
     assert not list(lab.temporary.glob(f"roughline-lab-{lab.process.pid}-*"))

@@ -1,17 +1,54 @@
-"""Explore for everyone: by keyboard alone, at any width, read aloud, in both themes."""
+"""Pages for everyone: by keyboard alone, at any width, read aloud, in both themes."""
 
+import numpy as np
 import pytest
 
+from lab.drawn_plots import held
 from lab.explore_driven import SMALL, address, sentence, settled, typed
-from lab.looks import asked, cut_off, faint, tabbed
+from lab.looks import asked, cut_off, faint, tabbed, texts_stand_out
+from lab.measured_driven import EXAMPLE, LINE_SCAN
+from lab.test_published_page import ready
 
 
-@pytest.fixture(scope="module")
-def small(pages):
-    """Return one page on a small grid."""
-    page = pages.open(SMALL)
+def explore(page):
     settled(page, points=64)
-    return page
+    ranges = page.locator("#explore [type=range]")
+    assert all(ranges.evaluate_all("(all) => all.map((each) => each.ariaValueText)"))
+
+
+def surface(example):
+    def shown(page):
+        page.click(example)
+        page.wait_for_selector('#measured [data-result="file"]')
+        page.click("#measured-step-preparation > summary")
+        page.wait_for_selector('#measured [data-result="preparation"]')
+
+    return shown
+
+
+@pytest.mark.parametrize(
+    ("query", "shown"),
+    [
+        (SMALL, explore),
+        ("?view=measured", surface(LINE_SCAN)),
+        ("?view=measured", surface(EXAMPLE)),
+        ("?view=published&v=1&D_f=2,2.4&low_3D=0.02", ready),
+    ],
+    ids=["explore", "line scan", "surface", "paper"],
+)
+def test_walk_over_a_view_by_keys_at_any_width_in_both_themes_where_all_has_a_name(
+    pages, query, shown
+):
+    page = pages.open(query, theme="dark")
+    shown(page)
+    view = page.locator("main:visible").get_attribute("id")
+    wanted, reached, unseen = tabbed(page, view)
+    assert reached == wanted
+    assert unseen == []
+    texts_stand_out(page, view)
+    page.click("#theme")
+    assert faint(page) == []
+    page.context.close()
 
 
 def test_the_theme_is_changed_and_kept_and_texts_stand_out_in_both(pages):
@@ -40,43 +77,27 @@ def test_the_theme_is_changed_and_kept_and_texts_stand_out_in_both(pages):
     page.context.close()
 
 
-def test_all_controls_have_names_and_descriptions(small):
-    assert asked(small, "nameless", "explore") == []
-    assert asked(small, "undescribed", "explore") == []
-    assert small.evaluate(
-        """() => [...document.querySelectorAll("#explore [type=range]")].every(
-            (each) => each.getAttribute("aria-valuetext"))"""
-    )
+def test_tabs_are_changed_by_arrows(fresh):
+    fresh.focus("#tab-area")
+    fresh.keyboard.press("ArrowRight")
+    assert fresh.evaluate("() => document.activeElement.id") == "tab-spectrum"
+    assert fresh.is_visible("#plot-explore-spectrum")
+    assert not fresh.is_visible("#plot-explore-area")
+    fresh.keyboard.press("ArrowLeft")
+    assert fresh.is_visible("#plot-explore-area")
+    assert fresh.get_attribute("#tab-area", "aria-selected") == "true"
 
 
-def test_tabs_are_changed_by_arrows(small):
-    small.focus("#tab-area")
-    small.keyboard.press("ArrowRight")
-    assert small.evaluate("() => document.activeElement.id") == "tab-spectrum"
-    assert small.is_visible("#plot-explore-spectrum")
-    assert not small.is_visible("#plot-explore-area")
-    small.keyboard.press("ArrowLeft")
-    assert small.is_visible("#plot-explore-area")
-    assert small.get_attribute("#tab-area", "aria-selected") == "true"
-
-
-def test_what_rests_is_spoken(small):
-    typed(small, "F", "0.3")
-    settled(small, points=64, F=0.3)
-    spoken = small.locator("#explore [data-spoken]").inner_text()
+def test_what_rests_is_spoken(fresh):
+    typed(fresh, "F", "0.3")
+    settled(fresh, points=64, F=0.3)
+    spoken = fresh.locator("#explore [data-spoken]").inner_text()
     assert "stiffness k" in spoken
     assert "certified" in spoken
 
 
-def test_walk_by_keys_alone(small):
-    wanted, reached, unseen = tabbed(small, "explore")
-    assert reached == wanted
-    assert unseen == []
-    press_by_keys(small)
-
-
-def press_by_keys(page):
-    """Set all kinds of controls, and see what follows."""
+def test_walk_over_all_kinds_of_controls_by_keys(fresh):
+    page = fresh
     page.focus("#explore-F")
     page.keyboard.press("End")
     settled(page, points=64, F=10)
@@ -103,16 +124,13 @@ def press_by_keys(page):
     with page.expect_download() as coming:
         page.keyboard.press("Enter")
     assert coming.value.suggested_filename == "curve.csv"
-    ends = """() => {
-        const {start, end} = Bokeh.documents[0].get_model_by_name("explore-stiffness").x_range;
-        return end / start;
-    }"""
-    whole = page.evaluate(ends)
+    ends = ("explore-stiffness", "x_range.end", "x_range.start")
+    whole = np.divide(*held(page, *ends))
     page.focus("#plot-explore-stiffness")
     page.keyboard.press("+")
-    assert page.evaluate(ends) < whole
+    assert np.divide(*held(page, *ends)) < whole
     page.keyboard.press("0")
-    assert page.evaluate(ends) == pytest.approx(whole)
+    assert np.divide(*held(page, *ends)) == pytest.approx(whole)
 
 
 def test_nothing_is_cut_off_at_any_width_and_on_a_phone_a_refusal_is_seen(pages):
