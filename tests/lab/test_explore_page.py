@@ -115,7 +115,7 @@ def test_the_contact_is_seen_before_plots_can_be_made(pages):
         route.continue_()
 
     page.route("**/bokeh.min.js", look)
-    page.goto(pages.address + SMALL)
+    page.goto(pages.address + "?" + urlencode({"view": "explore", "v": "1", **STATE}))
     drawn(page, points=64)
     assert page.locator(".sketch").count() == 0
     *cells, numbers = seen

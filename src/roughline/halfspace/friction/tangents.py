@@ -439,6 +439,8 @@ class _CoupledStuck:
 
         What is left is returned, too. Where all nodes stick, the totals err by its energy.
         """
+        if not target.any():  # all nodes yield on: none is pressed by an approach
+            return np.zeros_like(target), target
         symmetric, rough = not self._slips.any(), self._maps.rough is not None
         enough = math.sqrt(_ENERGY_MARGIN * rtol) if symmetric else rtol
         found, whole, left = start, float(np.abs(target).max()), math.inf
