@@ -65,6 +65,18 @@ def told_by_pages():
     )
     yield "reach 0.908 and refute it at $D_f = 3$", "paper", "and 0.908 (95 %: 0.906 to 0.909) at"
     yield "a ball agrees to 6e-9", "how-to/friction", "by another program | 6e-9, all its digits"
+    yield "A study of 855 rough bodies", "friction", "Of 855 bodies 0 had a load that was not"
+    yield (
+        "is off Jäger's by -0.3 to -0.0 % in the mean at a Poisson's ratio of 0.3",
+        "friction",
+        "their micro-slip is off it by -0.3% to -0.0% at ν = 0.3",
+    )
+    yield (
+        "it is 8 % larger at 0.8 of the largest shear",
+        "friction",
+        "at 0.8 μF bodies have slid 8% further than Jäger says at μ/β = 1.05",
+    )
+    yield "where friction is 1.05 times Dundurs' constant", "friction", "says at μ/β = 1.05"
     yield "Intervals promise 95 %", "check_us", "hold the true value in 95 of 100 cases"
     yield "written in Python (3.11 or newer)", "start", "Python 3.11"
 
