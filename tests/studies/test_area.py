@@ -7,7 +7,7 @@ import pytest
 
 import roughline as rl
 from benchmarks.made_curves import PRESSURES, areas, pressure_of
-from studies.area.claims import HEAVY, LIGHT, MIDDLE, common_law, main_samples, over_law
+from studies.area.claims import MIDDLE, common_law, main_samples, over_law
 from studies.area.measure import (
     AREAS,
     BANDS,
@@ -68,13 +68,6 @@ def test_the_law_of_self_affine_spectra_is_off_for_those_of_two_rings():
     answer = STUDY.page.split("\n\n")[1]
     assert f"lie {lowest:.1%} to {highest:.1%} above this line" in answer
     assert "Among self-affine spectra" in answer
-
-
-def test_the_page_of_the_science_quotes_the_study():
-    text = " ".join((DOCS / "science.md").read_text("utf-8").split())
-    for level, told in ((LIGHT, "{} to {} at 0.5 % in contact"), (HEAVY, "{} to {} at 15 %")):
-        found = [kappa(one, level).value for one in main_samples()]
-        assert told.format(f"{min(found):.2f}", f"{max(found):.2f}") in text
 
 
 def test_the_page_is_that_of_the_data():
