@@ -34,7 +34,7 @@ function tell(...words) {
 }
 
 const REST = 300; // without a change, until the address is written; browsers stop pages that write it often [ms]
-let later = null;
+let later = null, wanted = location.search;
 
 // The state of a view in the address of the page.
 const address = {
@@ -44,13 +44,17 @@ const address = {
     return said;
   },
   write(view, said) {
+    const now = `?${new URLSearchParams({view, ...said})}`;
+    if (now === wanted) return;
+    wanted = now;
     clearTimeout(later);
-    later = setTimeout(() => history.replaceState(null, "", `?${new URLSearchParams({view, ...said})}`), REST);
+    later = setTimeout(() => history.replaceState(null, "", wanted), REST);
   },
 };
 
 async function show(name, said) {
   clearTimeout(later); // it was of the view before
+  wanted = null;
   for (const view of VIEWS) {
     document.querySelector(`#${view}`).hidden = view !== name;
     const item = document.querySelector(`nav [data-view="${view}"]`);
