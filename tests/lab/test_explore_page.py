@@ -319,3 +319,20 @@ def test_what_takes_long_can_be_cancelled(tab, state, points, told):
     drawn(page, points=points)
     page.check('#explore [data-key="n"][value="64"]')
     settled(page, points=64)
+
+
+def test_heights_that_were_held_when_they_were_asked_for_are_drawn(fresh):
+    for seed in range(1, 5):  # as many as are held
+        typed(fresh, "seed", str(seed))
+        settled(fresh, seed=seed)
+    fresh.evaluate(
+        """async () => {
+            const text = document.querySelector("#explore-seed-text");
+            for (const seed of ["5", "1"]) { // the fifth takes the place of the first
+                text.value = seed;
+                text.dispatchEvent(new Event("change", {bubbles: true}));
+                await new Promise((done) => setTimeout(done, 5));
+            }
+        }"""
+    )
+    settled(fresh, seed=1)

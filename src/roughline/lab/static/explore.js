@@ -166,9 +166,10 @@ export default class Explore {
 
   #askNow() {
     const turn = ++this.#turn, args = this.#controls.asked;
-    this.#link.ask("explore.coarse", "coarse", {...args, heights: this.#held}, {
+    const held = new Map(this.#heights);
+    this.#link.ask("explore.coarse", "coarse", {...args, heights: [...held.keys()]}, {
       answer: (header) => {
-        this.#hold(header);
+        this.#hold(header, held);
         if (!this.#plots) this.#sketch(header);
         this.#draw(() => this.#drawContact(header, args, turn));
       },
@@ -198,21 +199,19 @@ export default class Explore {
 
   #heights = new Map(); // those that came last, of a coarse and of a fine grid, by the keys of their surfaces
 
-  get #held() { return [...this.#heights.keys()]; }
-
-  // Keep the heights of an answer, or take those that were not sent again.
-  #hold({heights, arrays}) {
+  // Keep the heights of an answer, or take those that were held when it was asked for, and are not sent again.
+  #hold({heights, arrays}, held) {
     if (!arrays.gap) return; // the load was not solved
-    arrays.height ??= this.#heights.get(heights);
+    arrays.height ??= held.get(heights);
     this.#heights.delete(heights);
     this.#heights.set(heights, arrays.height);
-    if (this.#heights.size > SURFACES) this.#heights.delete(this.#held[0]);
+    if (this.#heights.size > SURFACES) this.#heights.delete(this.#heights.keys().next().value);
     settle(arrays);
   }
 
   #sharpen() {
     if (!this.#plots) return;
-    const turn = this.#turn, args = this.#controls.asked;
+    const turn = this.#turn, args = this.#controls.asked, held = new Map(this.#heights);
     const error = (sentence, at) => {
       if (turn === this.#turn) this.#waiting.stop(["full", ...this.#finer]);
       this.#refuse(sentence, at, turn);
@@ -225,8 +224,8 @@ export default class Explore {
       error,
       progress,
     });
-    ask("full", "full", {...args, heights: this.#held}, (header) => {
-      this.#hold(header);
+    ask("full", "full", {...args, heights: [...held.keys()]}, (header) => {
+      this.#hold(header, held);
       this.#drawContact(header, args, turn);
       for (const each of this.#stale) {
         if (each !== "curve" && !header.state[each]) { this.#dim([each], false); continue; } // it is refused
