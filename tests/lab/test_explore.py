@@ -143,9 +143,9 @@ def test_the_contact_is_that_of_the_library(kind):
     )
     header, arrays = answer(pictures.full, state)
     fields, wanted = pressed.fields[0], pressed.stiffness / (E_STAR * LENGTH)
-    assert loads(header, "stiffness", "here")[1] == pytest.approx(wanted, rel=1e-9)
+    assert loads(header, "stiffness", "here")[1] == pytest.approx(wanted, rel=1e-12)
     areas = pressed.area_fraction_corrected
-    assert loads(header, "area", "here")[1] == pytest.approx(areas, rel=1e-9)
+    assert loads(header, "area", "here")[1] == pytest.approx(areas, rel=1e-12)
     marks = 1 * fields.contact + fields.plastic + 2 * fields.pulling
     np.testing.assert_array_equal(arrays["area"].T, marks)
     assert_sent(arrays["pressure"].T, fields.pressure / E_STAR)
