@@ -48,12 +48,25 @@ const address = {
     if (now === wanted) return;
     wanted = now;
     clearTimeout(later);
-    later = setTimeout(() => history.replaceState(null, "", wanted), REST);
+    later = setTimeout(writeAddress, REST);
   },
 };
 
+function writeAddress() {
+  if (later === null) return;
+  forgetAddress();
+  history.replaceState(null, "", wanted);
+}
+
+function forgetAddress() {
+  clearTimeout(later);
+  later = null;
+}
+
+addEventListener("click", writeAddress, true); // a link that is copied or saved is that of what is seen
+
 async function show(name, said) {
-  clearTimeout(later); // it was of the view before
+  forgetAddress(); // it was of the view before
   wanted = null;
   for (const view of VIEWS) {
     document.querySelector(`#${view}`).hidden = view !== name;
