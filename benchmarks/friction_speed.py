@@ -3,7 +3,7 @@
 Both are warm: they start from the load before. Times are those of the processor, each the least of
 two runs in turns, so that other programs count little.
 
-    python benchmarks/friction_speed.py --points 256 512
+    python benchmarks/friction_speed.py --points 512 1024
 """
 
 import argparse
@@ -126,7 +126,7 @@ def measure(page, points, beta, cycle):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--points", type=int, nargs="+", default=[256, 512])
+    parser.add_argument("--points", type=int, nargs="+", default=[512, 1024])
     given = parser.parse_args()
     load = f"{os.getloadavg()[0]:.0f} processes waited for the cores"
     page = Page("friction-speed", "measured.md", "friction-speed", f"{machine()}; {load}")

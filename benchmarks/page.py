@@ -98,9 +98,17 @@ def file_name(text):
 def machine():
     """Return what times depend on: the program, the machine and what computes on it."""
     return (
-        f"roughline {rl.__version__}, {available_cores()} cores, {processor_name()}, "
-        f"Python {platform.python_version()}, NumPy {np.__version__}"
+        f"roughline {rl.__version__}, {available_cores()} cores, {processor_name()} with "
+        f"{vector_units()}, Python {platform.python_version()}, NumPy {np.__version__}"
     )
+
+
+def vector_units():
+    """Name the vector units of the processor, on which times depend most."""
+    info = Path("/proc/cpuinfo")
+    flags = info.read_text().split() if info.exists() else []
+    units = [unit for unit in ("avx2", "avx512f") if unit in flags]
+    return " and ".join(units) or "unknown vector units"
 
 
 def percentiles(times):

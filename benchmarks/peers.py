@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 import peer_table
 from measure import our_convolution, plain_convolution
+from page import vector_units
 from peer_programs import (
     ENGINES_OF_ASPHER,
     SMALL,
@@ -77,15 +78,10 @@ def was_disturbed(row):
 
 
 def machine(cores):
-    info = Path("/proc/cpuinfo")
-    lines = (line.partition(":") for line in info.read_text().splitlines()) if info.exists() else ()
-    facts = {name.strip(): value.strip() for name, _, value in lines}
-    flags = facts.get("flags", "").split()
-    units = [unit for unit in ("avx2", "avx512f") if unit in flags]
     return {
         "processor": processor_name(),
         "cores": cores,
-        "vectors": " and ".join(units) or "vector units unknown",
+        "vectors": vector_units(),
         "python": platform.python_version(),
         "numpy": np.__version__,
         "programs": versions(),
