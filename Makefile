@@ -171,7 +171,7 @@ area: $(VENV)/installed
 	$(BIN)/python -m studies reduce area out/area.zarr
 	$(BIN)/python -m studies publish area
 
-# In four hours of two cores; resumable.
+# In two hours of two cores; resumable.
 sealing: $(VENV)/installed
 	OMP_NUM_THREADS=1 $(BIN)/python -m studies.sealing.run out/sealing.jsonl 2
 	$(BIN)/python -m studies reduce sealing out/sealing.jsonl

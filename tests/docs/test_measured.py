@@ -230,6 +230,20 @@ def test_the_page_of_speed_quotes_its_tables():
     assert f"These rows are of {ours} and {theirs};" in page
 
 
+def test_the_page_of_friction_quotes_what_it_costs():
+    page, rows = said_on("how-to/friction"), rows_of("friction-speed")
+
+    def spans(kind, of):
+        of_kind = [row for row in rows if row["grid"] == "512²" and row["bodies"] == kind]
+        return [float(row[of]) for row in of_kind if "cycle" not in row["load"]]
+
+    one, two = (spans(kind, "over a normal load") for kind in ("uncoupled", "coupled"))
+    assert f"takes {min(one):.1f} to {max(one):.1f} times as long as without friction" in page
+    assert f"one of two materials {min(two):.0f} to {max(two):.0f} times" in page
+    most = [max(spans(kind, "both tangents")) for kind in ("uncoupled", "coupled")]
+    assert f"adds up to {most[0]:.1f} and {most[1]:.0f} times as long" in page
+
+
 @pytest.fixture
 def permeance(monkeypatch):
     """The benchmark."""

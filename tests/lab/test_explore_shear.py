@@ -75,8 +75,9 @@ def test_a_load_that_bears_the_shear_no_more_is_refused_at_the_load():
     assert pytest.approx(5 / FORCE) == state.added[0].Q
 
 
-def test_a_layer_is_sheared_on_a_surface_that_is_repeated():
-    coated = SHEARED | {"t": "0.05", "E_l": "0.2", "boundary": "periodic"}
+@pytest.mark.parametrize("boundary", ["free", "periodic"])
+def test_a_layer_is_sheared(boundary):
+    coated = SHEARED | {"t": "0.05", "E_l": "0.2", "boundary": boundary}
     stiffness = [
         float(said(answer(pictures.further, each, of="mu")[0])["tangential"]["value"].split()[0])
         for each in (coated, coated | {"t": ""})

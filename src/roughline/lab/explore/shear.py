@@ -8,7 +8,6 @@ from typing import ClassVar
 import numpy as np
 
 import roughline as rl
-from roughline.contact.shear_loads import refuse_unknown_shear
 from roughline.contact.sliding import SlidingCurve
 from roughline.engineering.slip import ShearCycles
 from roughline.lab.controls import ControlError, as_code
@@ -49,12 +48,12 @@ class ShearPhysics(Physics):
     tick = "shear goes to and fro"
     meaning = (
         "With friction, a shear force from left to right first moves the bodies while spots slip "
-        "one by one; as it goes to and fro, force over slide makes a loop. Both bodies are of one "
-        "material, elastic and without adhesion."
+        "one by one; as it goes to and fro, force over slide makes a loop. Both bodies are elastic "
+        "and without adhesion, and of one material unless a layer lies on one."
     )
     controls = (DECLARED["mu"], DECLARED["Q"], DECLARED["nu"])
     excludes: ClassVar = {
-        "hardness_bar": "shear of bodies that yield is not solved: take the hardness away, or the "
+        "hardness_bar": "bodies that yield are not sheared here: take the hardness away, or the "
         "shear",
         "w": "shear of bodies that stick is not solved: take the adhesion away, or the shear",
     }
@@ -87,17 +86,7 @@ class ShearPhysics(Physics):
         return rl.Homogeneous(state.E_star, periodic=state.periodic, poisson=self.nu)
 
     def check(self, state: ExploreState) -> None:
-        """Refuse a force under which the bodies slide, and a body whose shear is not solved."""
-        try:
-            refuse_unknown_shear(state.half_space)
-        except rl.InputError:
-            raise ControlError(
-                "shear on a layer is solved for a surface that is repeated alone: make it "
-                "periodic, or take the layer or the shear away",
-                "mu",
-                "t",
-                "boundary",
-            ) from None
+        """Refuse a force under which the bodies slide."""
         if self.mu * _MOST_SHARE < self.Q:
             raise ControlError(
                 f"shear of {self.Q:.4g} F is not less than μ F = {self.mu:.4g} F, under which the "
