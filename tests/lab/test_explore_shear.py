@@ -78,11 +78,12 @@ def test_a_load_that_bears_the_shear_no_more_is_refused_at_the_load():
 @pytest.mark.parametrize("boundary", ["free", "periodic"])
 def test_a_layer_is_sheared(boundary):
     coated = SHEARED | {"t": "0.05", "E_l": "0.2", "boundary": boundary}
-    stiffness = [
-        float(said(answer(pictures.further, each, of="mu")[0])["tangential"]["value"].split()[0])
-        for each in (coated, coated | {"t": ""})
-    ]
+    found = [answer(pictures.further, each, of="mu")[0] for each in (coated, coated | {"t": ""})]
+    stiffness = [float(said(each)["tangential"]["value"].split()[0]) for each in found]
     assert stiffness[0] < 0.8 * stiffness[1]
+    captions = [each["panels"]["loop"]["caption"] for each in found]
+    assert captions[0].startswith("the first cycle, of bodies pressed in one load")
+    assert captions[1].startswith("a cycle in 16 steps")
 
 
 def test_code_gives_the_same_numbers(pressed, ran):

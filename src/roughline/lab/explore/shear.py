@@ -134,7 +134,7 @@ class ShearPhysics(Physics):
             arguments=f"{friction}, forces=[force] * len(shear), shear_forces=shear",
             after=_IN_PYTHON,
             materials=f"{material}, {material}",
-            command=("--friction", as_code(self.mu), "--shear", in_words),
+            command=("--friction", as_code(self.mu), "--shear", in_words, "--cycles", "1"),
         )
 
 
@@ -155,10 +155,17 @@ def _loop(cycle: ShearCycles, n: int) -> PanelContent:
     return PanelContent(
         series=series,
         rows=[[*row, way] for row, way in zip(rows, ways, strict=True)],
-        caption=f"a cycle in {_PER_CYCLE} steps under this load, on {n}² points",
+        caption=f"{_which(curve)} in {_PER_CYCLE} steps under this load, on {n}² points",
         x=linear_span(slides),
         y=linear_span(shears),
     )
+
+
+def _which(curve: SlidingCurve) -> str:
+    """Which cycle it is: where pressure moves bodies along each other, they differ."""
+    if not curve.half_space.is_coupled:
+        return "a cycle"
+    return "the first cycle, of bodies pressed in one load (later ones differ),"
 
 
 def _words(cycle: ShearCycles, n: int) -> StripWords:
