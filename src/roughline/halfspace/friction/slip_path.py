@@ -244,7 +244,7 @@ class SlidePath:
             return last
         by_force, by_shear = load.force is not None, shear.force is not None
         normal = load.value - (before.force if by_force else before.depth)
-        along = np.array(shear.force if by_shear else shear.slide)
+        along = np.array(shear.force if by_shear else shear.slide, np.float64)
         along -= last.force if by_shear else last.slide
         on, back = tangents.coupled
         tangent = on if last.force @ along >= 0 <= normal else back
