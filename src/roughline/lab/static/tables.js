@@ -11,9 +11,9 @@ export function fillTable(id, header, rows, groups = null, quiet = null) {
   const place = document.querySelector(`[data-table="${id}"]`), fold = place.closest("details:not(.step)");
   const fill = () => place.replaceChildren(tableOf(header, rows, groups, quiet));
   clearTimeout(later.get(id));
-  if (!fold || fold.open || !place.children.length) { fill(); return; }
-  later.set(id, setTimeout(fill, REST));
-  fold.ontoggle = () => { if (fold.open) fill(); };
+  if (fold) fold.ontoggle = () => { if (fold.open) fill(); };
+  if (!fold || fold.open || !place.children.length) fill();
+  else later.set(id, setTimeout(fill, REST));
 }
 
 function tableOf(header, rows, groups, quiet) {
