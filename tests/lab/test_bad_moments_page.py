@@ -1,4 +1,4 @@
-"""Answers that come late or in another order, a page beside another tab, one that is loaded again."""
+"""Answers late or in another order, a page beside another tab, one that is loaded again."""
 
 from dataclasses import replace
 from urllib.parse import urlencode
@@ -70,7 +70,8 @@ def opened(page, pages):
 def came(page, *tasks):
     """Wait until answers of these tasks are kept back, to what was asked last."""
     page.wait_for_function(
-        "(tasks) => tasks.every((each) => held.some(([id, task]) => task === each && id >= newest))",
+        """(tasks) => tasks.every((each) =>
+            held.some(([id, task]) => task === each && id >= newest))""",
         arg=list(tasks),
     )
 
