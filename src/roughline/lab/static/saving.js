@@ -45,7 +45,7 @@ function wordsOf(panel, remark) {
   const found = (selector) => [...panel.querySelectorAll(`:scope > ${selector}`)];
   const told = (each) => each.selectedOptions?.[0].text ?? (each.querySelector(".patch") ? each.firstChild.textContent : each.innerText).trim();
   const keys = found("figcaption .patch").map((patch) =>
-    ({text: patch.nextSibling.textContent, colour: getComputedStyle(patch).backgroundColor}));
+    ({text: patch.textContent, colour: getComputedStyle(patch, "::before").backgroundColor}));
   const names = [...panel.querySelectorAll(".names li:not([hidden])")].map((item) =>
     ({text: item.innerText.trim(), colour: getComputedStyle(item).borderLeftColor}));
   const head = [found("figcaption :is(.title, select, small)").map(told).filter(Boolean).join("; "), found(".scale").map(told).join("").replace(/\s+/g, " ")];
