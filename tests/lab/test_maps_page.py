@@ -2,6 +2,7 @@
 
 import io
 import re
+from dataclasses import replace
 from urllib.parse import parse_qsl
 
 import numpy as np
@@ -12,7 +13,7 @@ import roughline as rl
 from lab.drawn_plots import drag, held, on_screen, source, still
 from lab.explore_asked import E_STAR, HEIGHT, LENGTH, SCALE
 from lab.explore_driven import SMALL, settled, typed
-from lab.measured_driven import CONNECTED
+from lab.measured_driven import CONNECTED, answers, press
 from roughline.lab.explore.reading import read_state
 from seen import is_upright, lay_of_45_degrees
 
@@ -141,6 +142,32 @@ def test_a_line_across_a_map_shows_the_profile_of_both_bodies(small):
     page.click("[data-profile=explore-profile]")  # the cross is there again
     assert source(page, "profile surface")[0][-1] == 1
     page.click("[data-profile=explore-profile]")
+
+
+def test_a_line_ends_where_the_mouse_is_released_also_beside_the_map(small):
+    page = showing(small, "area", "0.2")
+    draw(page, MAP, (0.1, 0.5), (-0.6, 0.5))
+    ends = source(page, "contact cut")
+    assert ends == [pytest.approx([0.1, 0], abs=0.02), pytest.approx([0.5, 0.5], abs=0.02)]
+    page.mouse.move(*on_screen(page, MAP, (0.8, 0.8))[0])
+    assert source(page, "contact cut") == ends
+    for _ in range(2):
+        page.click("[data-profile=explore-profile]")
+
+
+def test_a_line_is_forgotten_with_the_surface_that_it_lies_on(pages, tmp_path):
+    page = pages.open("?view=measured")
+    page.wait_for_selector(CONNECTED)
+    for length, name in ((1e-3, "one.nc"), (1e-5, "other.nc")):
+        spectrum = rl.SelfAffine(hurst=0.7, length=length, rms_height=length / 1000)
+        rl.write(replace(spectrum.surface(16, 3), unit="m"), tmp_path / name)
+        page.set_input_files("#measured [data-file]", tmp_path / name)
+        press(page, loads="1 MPa")
+        answers(page)
+        assert not page.is_visible("#measured-profile")
+        draw(page, "measured-contact", (0.1, 0.5), (0.9, 0.5), "[data-profile=measured-profile]")
+        page.wait_for_selector("#measured-profile")
+    page.context.close()
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])

@@ -7,7 +7,11 @@ export function bindCode(root, link, asked, refuse) {
   dialog.querySelector("[data-copy]").addEventListener("click", ({target}) => copy(code.textContent, target));
   for (const button of root.querySelectorAll("[data-code]")) {
     button.addEventListener("click", () => link.ask(`${root.id}.code`, `${root.id} code`, {...asked(), which: button.dataset.code}, {
-      answer: ({text}) => { code.textContent = text; dialog.showModal(); },
+      answer: ({text}) => {
+        if (root.hidden) return; // a dialog that nobody sees would hold the page
+        code.textContent = text;
+        dialog.showModal();
+      },
       error: refuse,
     }));
   }

@@ -22,7 +22,7 @@ const LEFT_BY_OTHERS = "curves belong to the contact before";
 export default class Explore {
   #link; #address; #root = document.querySelector("#explore");
   #controls; #plots; #maps; #waiting; #rest = null; #last = null; #fromCursor = false; #numbers = {F: 0.1};
-  #physics; #cursors; #figures; // as the server declares them: of figures the keys, in their order
+  #physics; #declared; #cursors; #figures; // as the server declares them: panels, and of figures the keys, in their order
   #panels = null;
 
   constructor(link, address) {
@@ -30,6 +30,7 @@ export default class Explore {
     this.#address = address;
     const {physics, panels, strip} = JSON.parse(this.#root.dataset.declared);
     this.#physics = physics;
+    this.#declared = panels;
     this.#cursors = panels.filter(({cursor}) => cursor);
     this.#controls = new Controls(this.#root, (key, isFinal) => this.#changed(key, isFinal));
     this.#waiting = new Waiting(this.#find(".status"), link, (works) => this.#cancelled(works));
@@ -67,7 +68,7 @@ export default class Explore {
     this.#sharpen();
   }
 
-  shown() { this.#address.write("explore", this.#last?.state ?? {}); }
+  shown() { if (this.#last) this.#writeAddress(this.#last.state); }
 
   // What is seen: the texts of the last answer, as they were typed where they counted, and the map that is chosen.
   get #seen() {
@@ -80,15 +81,16 @@ export default class Explore {
       const isMap = ({id}) => [MAP, "explore-profile"].includes(id);
       const panels = [...this.#root.querySelectorAll(".panel:not(.empty)")]
         .filter((each) => each.offsetParent && isMap(each) === (name === "contact.png"));
-      save(name, await pictureOf(this.#plots, panels));
+      save(name, await pictureOf(this.#plots, panels, ({dataset}) => this.#remarkOn(dataset.task)));
       return;
     }
     if (name.endsWith(".csv")) {
       const remarks = [`roughline ${document.body.dataset.version}`, `lab_link = ${location.search}`];
+      for (const {key, task} of this.#declared) if (this.#remarkOn(task)) remarks.push(`panel ${key}: ${this.#remarkOn(task)}`);
       save(name, new Blob([this.#panels.table(remarks)], {type: "text/csv"}));
       return;
     }
-    this.#waiting.ask("explore.download", "download", {...this.#seen, name}, {
+    this.#waiting.ask("explore.download", `download ${name}`, {...this.#seen, name}, {
       answer: ({file}) => element("a", {href: `results/${this.#link.session}/${file}?save=1`, download: name}).click(),
       error: (...said) => this.#refuse(...said),
     });
@@ -124,12 +126,15 @@ export default class Explore {
     for (const panel of panels) this.#panelOf(panel).classList.remove("dimmed");
   }
 
+  // What is to be known of curves that are saved.
+  #remarkOn(task) { return this.#isOfContact(task) ? "" : LEFT_BY_OTHERS; }
+
   #missed = []; // answers that came before the plots were there
   #draw(action) { if (this.#plots) action(); else this.#missed.push(action); }
 
   #changed(key, isFinal) {
     if (key === "shown") {
-      if (!this.#last) return;
+      if (!this.#last) { this.#sharpen(); return; }
       this.#drawField();
       this.#writeAddress(this.#last.state);
       const {shown} = this.#controls.said;
@@ -161,7 +166,7 @@ export default class Explore {
 
   #cancelled(works) {
     this.#stopped = this.#turn;
-    this.#say(`stopped: ${[...new Set(works.map((work) => LEFT[work] ?? LEFT_BY_OTHERS))].join(", and ")}`, true);
+    this.#say(`stopped: ${[...new Set(works.map((work) => LEFT[work.split(" ")[0]] ?? LEFT_BY_OTHERS))].join(", and ")}`, true);
   }
 
   #askNow() {
@@ -173,7 +178,11 @@ export default class Explore {
         if (!this.#plots) this.#sketch(header);
         this.#draw(() => this.#drawContact(header, args, turn));
       },
-      error: (sentence, at) => { this.#tellSketched(); this.#refuse(sentence, at, turn); },
+      error: (sentence, at) => {
+        this.#tellSketched();
+        if (turn === this.#turn) clearTimeout(this.#rest);
+        this.#refuse(sentence, at, turn);
+      },
     });
   }
 
@@ -240,9 +249,12 @@ export default class Explore {
     const {line, state, numbers: own} = header;
     if (line) this.#show("line", {...line, state, numbers: own});
     this.#settled(header, asked, turn);
-    if (header.is_coarse && this.#last && !this.#last.is_coarse && sameState(this.#last.state, header.state)) return;
+    if (header.is_coarse && this.#last && !this.#last.is_coarse && (turn <= this.#last.turn || sameState(this.#last.state, state))) {
+      this.#compare(); // with the lines, which it has brought
+      return;
+    }
     const counted = Object.entries(asked.state).filter(([key]) => !(key in header.refused));
-    this.#last = {...header, texts: Object.fromEntries(counted)};
+    this.#last = {...header, turn, texts: Object.fromEntries(counted)};
     const {strip, points: n, numbers} = header;
     this.#plots.shows(MAP, {what: "contact", points: n, numbers});
     this.#show("contact", header);
@@ -252,7 +264,10 @@ export default class Explore {
     this.#fillTables(strip);
     const wasStopped = header.is_coarse && turn === this.#stopped; // and says so already
     if (!wasStopped) this.#say(header.status, !header.is_coarse);
-    this.#find(`#${MAP}`).classList.remove("dimmed", "empty");
+    const {classList} = this.#find(`#${MAP}`);
+    classList.remove("dimmed");
+    classList.toggle("empty", !header.maps.area);
+    this.#find("#save").disabled = false;
   }
 
   #drawCurves(what, header) {
@@ -300,7 +315,8 @@ export default class Explore {
   }
 
   get #shownFigures() {
-    const known = Object.fromEntries([...this.#answers.values()].flatMap(({strip = []}) => strip.map((each) => [each.key, each])));
+    const known = Object.fromEntries([...this.#answers].flatMap(([what, {strip = []}]) =>
+      strip.map((each) => [each.key, {...each, isBefore: !this.#isOfContact(what)}])));
     return this.#figures.flatMap((key) => known[key] ?? []);
   }
 
@@ -314,7 +330,10 @@ export default class Explore {
 
   #drawField() {
     const {shown: wanted} = this.#controls.said, {maps, arrays} = this.#fields, shown = wanted in maps ? wanted : "area";
-    if (!(shown in maps)) return; // the load was not solved
+    if (!(shown in maps)) { // and the map before is not seen
+      fillCaption(this.#find('[data-caption="shown"]'), {caption: "the load was not solved", meanings: {}});
+      return;
+    }
     const {rings} = maps[shown];
     const isLit = wanted !== "white", {caption, meanings} = maps[shown];
     fillCaption(this.#find('[data-caption="shown"]'), {caption, meanings: isLit ? onRelief(meanings) : meanings});
@@ -324,11 +343,17 @@ export default class Explore {
     this.#maps.tell(layersOf(maps, arrays));
   }
 
-  // Maps of the contact and of what is added.
+  // Maps of the contact, and of what is added and known of it.
   get #fields() {
-    const all = [...this.#answers.values()].filter(({maps}) => maps);
+    const all = [...this.#answers].filter(([what, {maps}]) => maps && this.#isOfContact(what)).map(([, header]) => header);
     const together = (name) => Object.assign({}, ...all.map((each) => each[name]));
     return {maps: together("maps"), arrays: together("arrays")};
+  }
+
+  // Whether the last answer of a kind is about the contact that is shown.
+  #isOfContact(what) {
+    const {state} = this.#answers.get(what) ?? {}, isOfSurface = what === "curve" || this.#physics[what]?.follows === "surface";
+    return !state || !this.#last || sameState(state, this.#last.state, isOfSurface ? ["F"] : []);
   }
 
   // Dim panels whose tasks have no answer to what is asked now.
@@ -372,7 +397,6 @@ export default class Explore {
 
   #refuse(sentence, at, turn = this.#turn) {
     if (turn !== this.#turn) return;
-    clearTimeout(this.#rest);
     this.#controls.deny(sentence, at, () => {
       this.#take({});
       this.#askNow();
@@ -383,7 +407,7 @@ export default class Explore {
   // Write the status; at rest it is spoken too, with the numbers.
   #say(text, atRest) {
     this.#find("[data-status]").textContent = text;
-    if (atRest) this.#find("[data-spoken]").textContent = `${text}; ${this.#shownFigures.map(({symbol, value}) => `${symbol} ${value}`).join(", ")}`;
+    if (atRest) this.#find("[data-spoken]").textContent = `${text}; ${this.#shownFigures.filter(({isBefore}) => !isBefore).map(({symbol, value}) => `${symbol} ${value}`).join(", ")}`;
   }
 
   #panelOf(key) { return this.#find(`#explore-${key}`); }
@@ -400,4 +424,8 @@ function maps() {
   return {[MAP]: mapFigure("contact", {hasRelief: true, rings: "mark", ranges: sharedRanges()}), "explore-profile": profileFigure()};
 }
 
-function sameState(first, second) { return JSON.stringify(first) === JSON.stringify(second); }
+// Whether two are states of one contact, whichever map is shown of it.
+function sameState(first, second, others = []) {
+  const texts = (state) => JSON.stringify(Object.entries(state).filter(([key]) => !["shown", ...others].includes(key)));
+  return texts(first) === texts(second);
+}

@@ -81,7 +81,11 @@ export function onDraw(roots, button, drawn, begun = () => {}) {
   button.addEventListener("click", () => { arm(!isArmed); begun(); });
   for (const {element, canvas, view} of places) {
     const take = {
-      pointerdown: (event) => { event.isPrimary ? (from = pointAt(view, event)) : leave(); },
+      pointerdown: (event) => {
+        if (!event.isPrimary) { leave(); return; }
+        canvas.setPointerCapture(event.pointerId); // also beside the plot the drag goes on, and ends
+        from = pointAt(view, event);
+      },
       pointermove: (event) => { if (from) drawn(from, pointAt(view, event), false); },
       pointerup: (event) => {
         if (!from) return;

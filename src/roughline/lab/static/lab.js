@@ -26,11 +26,22 @@ const link = new Link({
   },
 });
 
+let failure = "", ofLine = ""; // why the page may not show all that it was told, and how the connection is
+
 // Say how the connection is; without a word it is well.
 function tell(...words) {
-  connection.hidden = words.length === 0;
-  const said = words.join("");
+  ofLine = words.join("");
+  const said = [failure, ofLine].filter(Boolean).join(" ");
+  connection.hidden = said === "";
   if (connection.textContent !== said) connection.textContent = said; // else a screen reader would say it again
+}
+
+for (const type of ["error", "unhandledrejection"]) {
+  addEventListener(type, ({error, reason}) => {
+    if (!(error ?? reason)) return; // such as a size that is told a picture later
+    failure = "Something failed on this page, which may show less than was answered: load it again. All that is set stays.";
+    tell(ofLine);
+  });
 }
 
 const REST = 300; // without a change, until the address is written; browsers stop pages that write it often [ms]
@@ -44,6 +55,7 @@ const address = {
     return said;
   },
   write(view, said) {
+    if (document.querySelector(`#${view}`).hidden) return; // answered since it was left
     const now = `?${new URLSearchParams({view, ...said})}`;
     if (now === wanted) return;
     wanted = now;
@@ -68,6 +80,7 @@ addEventListener("click", writeAddress, true); // a link that is copied or saved
 async function show(name, said) {
   forgetAddress(); // it was of the view before
   wanted = null;
+  for (const dialog of document.querySelectorAll("dialog[open]")) dialog.close(); // unseen it would hold the page
   for (const view of VIEWS) {
     document.querySelector(`#${view}`).hidden = view !== name;
     const item = document.querySelector(`nav [data-view="${view}"]`);
@@ -140,7 +153,10 @@ document.querySelectorAll(".drawer").forEach((drawer) => {
 async function start() {
   const said = address.read(), place = document.getElementById(location.hash.slice(1));
   const name = new URLSearchParams(location.search).get("view") ?? FIRST;
-  await show(VIEWS.includes(name) ? name : FIRST, said);
+  const first = VIEWS.includes(name) ? name : FIRST;
+  await show(first, said);
   place?.scrollIntoView();
+  await opened.get(first);
+  for (const view of VIEWS) import(`./${view}.js`).catch(() => {}); // it is there when the lab is not
 }
 start();

@@ -64,6 +64,7 @@ export class Maps {
   #plots; #names; #plot; #places; #extent = ""; #sizes = [1, 1]; #layers = []; #unit = ""; #ranges = {};
   #looks = {}; // by name, how each map is coloured
   #reliefs = {}; // by name, the heights that are lit below it
+  #points = new Map(); // where the mouse is, by the elements that tell of it
   #cut = null; #profile = null; #cross = null;
   #isByHand = false; // whether the cut was drawn
 
@@ -91,10 +92,17 @@ export class Maps {
     room.append(place);
     room.parentElement.querySelector("figcaption").append(point);
     onPoint(this.#plots.root(this.#plot(name)), (at) => {
+      this.#points.set(point, at);
+      this.#tellPoints();
+      if (!point.hidden && this.#profile?.hasCross && !this.#isByHand) this.#crossAt(at);
+    });
+  }
+
+  #tellPoints() {
+    for (const [point, at] of this.#points) {
       point.textContent = at ? this.#told(at) : "";
       point.hidden = !point.textContent;
-      if (point.textContent && this.#profile?.hasCross && !this.#isByHand) this.#crossAt(at);
-    });
+    }
   }
 
   // Light heights, {values, shape}, below a map; without any its paper shows.
@@ -112,14 +120,16 @@ export class Maps {
       : {image: [ndarray(reliefOf(height, this.#sizes), {dtype: "uint32", shape: height.shape})], x: [0], y: [0], dw: [dw], dh: [dh]});
   }
 
-  // Lay the maps out for a surface with these sides, in a unit; all of it is shown when it is another one. As in
-  // instruments' software y counts from the top downwards.
+  // Lay the maps out for a surface with these sides, in a unit; all of it is shown when it is another one, without lines
+  // and points of the one before. As in instruments' software y counts from the top downwards.
   frame(sizes, unit, corner = [0, 0]) {
     this.#sizes = sizes;
     this.#unit = unit;
     const extent = `${corner} ${sizes} ${unit}`;
     if (extent === this.#extent) return;
     this.#extent = extent;
+    [this.#cut, this.#cross, this.#isByHand] = [null, null, false];
+    for (const point of this.#points.keys()) this.#points.set(point, null);
     for (const name of this.#names) {
       this.#plots.label(this.#plot(name), withUnit("x", unit), withUnit("y", unit));
       const [left, top] = corner, [width, height] = sizes;
@@ -143,8 +153,10 @@ export class Maps {
   // Take what is told of a point and drawn along a line: looks with a key and an array; `height` and `gap` make a profile.
   tell(layers) {
     this.#layers = layers;
-    if (this.#profile?.hasCross && !this.#cross) this.#crossAt(this.#summit());
-    else if (this.#cut) this.#drawProfile();
+    this.#tellPoints();
+    const height = layers.find(({key}) => key === "height");
+    if (this.#profile?.hasCross && !this.#cross && height) this.#crossAt(this.#summit(height));
+    else this.#drawProfile();
   }
 
   #colour(name) {
@@ -189,8 +201,7 @@ export class Maps {
   }
 
   // The highest point, which touches first.
-  #summit() {
-    const {array: {values, shape: [rows, columns]}} = this.#layers.find(({key}) => key === "height");
+  #summit({array: {values, shape: [rows, columns]}}) {
     const first = values.reduce((best, value, i) => (value > values[best] ? i : best), 0), [width, height] = this.#sizes;
     return {x: ((first % columns + 0.5) / columns) * width, y: ((Math.floor(first / columns) + 0.5) / rows) * height};
   }
@@ -205,12 +216,15 @@ export class Maps {
     const figure = document.querySelector(`#${plot}`);
     const button = document.querySelector(`[data-profile="${plot}"]`);
     this.#profile = {plot, figure, hasCross};
+    for (const side of ["inner_width", "inner_height"]) { // which its caption depends on
+      this.#plots.root(plot).properties[side].change.connect(() => this.#drawProfile(false));
+    }
     onDraw(this.#names.map((name) => this.#plots.root(this.#plot(name))), button, (from, to, isLast) => {
       [this.#cut, this.#isByHand] = [[from, to], true];
       this.#drawProfile(isLast);
     }, () => { // begin anew
       [this.#cut, this.#isByHand] = [null, false];
-      if (hasCross) this.#crossAt(this.#cross);
+      if (this.#cross) this.#crossAt(this.#cross);
       else this.#drawProfile();
     });
   }

@@ -241,10 +241,11 @@ export default class Measured {
 
   #write() {
     remember("set", this.#set);
-    if (!this.root.hidden) this.#address.write("measured", this.#set);
+    this.#address.write("measured", this.#set);
   }
 
   #forgetFile() {
+    this.#stop();
     this.#read = this.#body = null;
     for (const name of ["file", "preparation", "answers", "compare"]) this.showResult(name, false);
     for (const place of this.findAll("[data-asked], [data-asks]")) place.hidden = true;

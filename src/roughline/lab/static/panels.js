@@ -6,6 +6,7 @@ import {fillTable} from "./tables.js";
 
 const FILLED = ["scatter", "varea"]; // glyphs that have an inside
 const FOOT = 0.04; // of a logarithmic axis: how far above its end zeros stand
+const ORDER = {curve: 0, line: 2}; // of rows in tables, by the answers that they came with; of others 1
 const SLOPE = 0.6; // of the names of places [rad]
 
 // Embed the panels that the page of a view has, and its other figures, which may change those of the panels.
@@ -104,9 +105,9 @@ class Panels {
   #find(key, selector) { return document.querySelector(`#${this.#plot(key)} ${selector}`); }
   #remark(key, text) { this.#find(key, "[data-remarks]")?.replaceChildren(...typeset(text)); }
 
-  // The table of a panel has the rows of all answers; those of the lines stand below.
+  // The table of a panel has the rows of all answers, in one order, however they came.
   #fillRows(key) {
-    const all = [...this.#answers].sort(([a], [b]) => (a === "line") - (b === "line"))
+    const all = [...this.#answers].sort(([a], [b]) => (ORDER[a] ?? 1) - (ORDER[b] ?? 1))
       .flatMap(([, panels]) => (panels[key]?.rows ? [panels[key]] : []));
     const columns = all.find((each) => each.columns)?.columns ?? this.#declared[key].columns;
     fillTable(this.#plot(key), columns, all.flatMap(({rows}) => rows));

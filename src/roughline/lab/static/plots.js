@@ -11,9 +11,10 @@ let bokeh = null; // once it is asked for
 
 // Load BokehJS, whose megabyte keeps the browser and the server busy for a while.
 function loaded() {
-  bokeh ??= Promise.all(["bokeh.min.js", "bokeh-api.min.js"].map((name) => new Promise((resolve) => {
+  bokeh ??= Promise.all(["bokeh.min.js", "bokeh-api.min.js"].map((name) => new Promise((resolve, reject) => {
     const script = element("script", {src: `bokeh/${name}`, async: false}); // the second needs the first
     script.addEventListener("load", resolve);
+    script.addEventListener("error", () => reject(new Error(`${name} did not come`)));
     document.head.append(script);
   }))).then(spareStyles);
   return bokeh;

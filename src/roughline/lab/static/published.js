@@ -4,6 +4,7 @@ import {element, typeset} from "./elements.js";
 import {add, draw, plot} from "./figures.js";
 import {onDraw, onTouch} from "./hands.js";
 import {panelsOf} from "./panels.js";
+import constants from "./paper.json" with {type: "json"};
 import {fillFigures, fillTable, judged, patch} from "./tables.js";
 
 const EDGES = {"1D": ["low_1D", "high_1D"], "3D": ["low_3D", "high_3D"]};
@@ -22,8 +23,9 @@ const ofDimensions = (series, wanted) => Object.fromEntries(Object.entries(serie
 }));
 
 export default class Published {
-  #link; #address; #root = document.querySelector("#published"); #controls; #panels; #constants = null; #trust;
+  #link; #address; #root = document.querySelector("#published"); #controls; #panels; #trust;
   #windows = {}; #state = {}; #shown = "";
+  #turn = 0; // of the questions: controls and address follow the answer to the newest, which knows all that is set
 
   constructor(link, address) {
     this.#link = link;
@@ -43,8 +45,7 @@ export default class Published {
     this.#controls.take(texts);
     TASKS.forEach((task) => this.#ask(task));
     this.#panels = panelsOf(this.#root, (made) => ({...withWindows(made), ...trustMap(this.#trust)}));
-    this.#constants = await (await fetch("lab/paper.json")).json();
-    this.#take("constants", this.#constants);
+    this.#take("constants", constants);
     this.#showCurves();
     const {plots} = await this.#panels;
     for (const model of Object.keys(EDGES)) this.#bindWindow(plots, model);
@@ -55,22 +56,24 @@ export default class Published {
         this.#ask("point");
       });
     }
-    this.#root.querySelector("[data-legend]").replaceChildren(...this.#constants.legend.map(([background, text]) =>
+    this.#root.querySelector("[data-legend]").replaceChildren(...constants.legend.map(([background, text]) =>
       element("li", {}, patch(background, text))));
   }
 
   shown() { this.#address.write("published", this.#state); }
 
   #ask(task) {
-    const asked = this.#controls.asked;
+    const asked = this.#controls.asked, turn = ++this.#turn;
     this.#link.ask(`published.${task}`, task, asked, {
       answer: (header) => {
-        this.#controls.answered(asked, header);
-        this.#state = header.state;
-        if (!this.#root.hidden) this.shown();
+        if (turn === this.#turn) {
+          this.#controls.answered(asked, header);
+          this.#state = header.state;
+          this.shown();
+          this.#showCurves();
+        }
         this.#take(task, header);
-        if (task === "fits") this.#showCurves();
-        else this.#showPoint(header);
+        if (task === "point") this.#showPoint(header);
       },
       error: (sentence, at) => this.#controls.deny(sentence, at, () => {
         this.#controls.take({});
@@ -101,7 +104,7 @@ export default class Published {
   // Show the curves for what is chosen, of the fractal dimensions that are chosen.
   #showCurves() {
     const {mean, punch, D_f} = {...this.#controls.shown, ...this.#state}, wanted = D_f.split(",");
-    const names = [`1D ${mean}`, `3D ${mean} ${punch}`], curves = this.#constants?.curves ?? {};
+    const names = [`1D ${mean}`, `3D ${mean} ${punch}`], {curves} = constants;
     if (!names.every((name) => name in curves) || this.#shown === `${names} ${D_f}`) return;
     this.#shown = `${names} ${D_f}`;
     const some = (cells) => cells.filter((_, i) => i === 0 || wanted.includes(DIMENSIONS[i - 1]));
@@ -157,7 +160,7 @@ export default class Published {
     clearTimeout(this.#rest);
     this.#rest = setTimeout(() => {
       this.#moving = null;
-      this.#place(plots, {[model]: this.#windows[model]});
+      if (!this.#link.isWaiting("fits")) this.#place(plots, this.#windows); // else its answer does
     }, 400);
   }
 }

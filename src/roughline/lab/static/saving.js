@@ -10,11 +10,11 @@ export function save(name, content) {
   setTimeout(() => URL.revokeObjectURL(address), 60_000);
 }
 
-// The plots in panels, side by side, as PNG.
-export async function pictureOf(plots, panels) {
+// The plots in panels, side by side, as PNG, each with what is remarked on its panel.
+export async function pictureOf(plots, panels, remarkOn) {
   const style = getComputedStyle(document.body), pictures = panels.map((panel) => {
     const {canvas} = Bokeh.index.find_one(plots.root(panel.id)).export("png", true);
-    return {canvas, words: wordsOf(panel), width: panel.querySelector(".plot").clientWidth};
+    return {canvas, words: wordsOf(panel, remarkOn(panel)), width: panel.querySelector(".plot").clientWidth};
   });
   const scale = pictures[0].canvas.width / pictures[0].width, lines = Math.max(...pictures.map(({words}) => words.length));
   const made = element("canvas", {
@@ -41,13 +41,13 @@ export async function pictureOf(plots, panels) {
 }
 
 // Lines above a picture: what it is of, the scale of its colours, and what colours and curves are, with their colours.
-function wordsOf(panel) {
+function wordsOf(panel, remark) {
   const found = (selector) => [...panel.querySelectorAll(`:scope > ${selector}`)];
   const told = (each) => each.selectedOptions?.[0].text ?? (each.querySelector(".patch") ? each.firstChild.textContent : each.innerText).trim();
   const keys = found("figcaption .patch").map((patch) =>
-    ({text: patch.nextSibling.textContent, colour: getComputedStyle(patch).backgroundColor}));
+    ({text: patch.textContent, colour: getComputedStyle(patch, "::before").backgroundColor}));
   const names = [...panel.querySelectorAll(".names li:not([hidden])")].map((item) =>
     ({text: item.innerText.trim(), colour: getComputedStyle(item).borderLeftColor}));
   const head = [found("figcaption :is(.title, select, small)").map(told).filter(Boolean).join("; "), found(".scale").map(told).join("").replace(/\s+/g, " ")];
-  return [...head.filter(Boolean).map((text) => ({text})), ...keys, ...names];
+  return [...[...head, remark].filter(Boolean).map((text) => ({text})), ...keys, ...names];
 }

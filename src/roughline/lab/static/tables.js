@@ -11,9 +11,9 @@ export function fillTable(id, header, rows, groups = null, quiet = null) {
   const place = document.querySelector(`[data-table="${id}"]`), fold = place.closest("details:not(.step)");
   const fill = () => place.replaceChildren(tableOf(header, rows, groups, quiet));
   clearTimeout(later.get(id));
-  if (!fold || fold.open || !place.children.length) { fill(); return; }
-  later.set(id, setTimeout(fill, REST));
-  fold.ontoggle = () => { if (fold.open) fill(); };
+  if (fold) fold.ontoggle = () => { if (fold.open) fill(); };
+  if (!fold || fold.open || !place.children.length) fill();
+  else later.set(id, setTimeout(fill, REST));
 }
 
 function tableOf(header, rows, groups, quiet) {
@@ -64,10 +64,11 @@ export function fillGroups(place, groups) {
 // The answers that lead, in large figures, each with what stands below; those that are the same stay as they are.
 export function fillFigures(place, figures) {
   while (place.children.length > figures.length) place.lastElementChild.remove();
-  for (const [i, {key = "", symbol, value, below, meaning: title = ""}] of figures.entries()) {
+  for (const [i, {key = "", symbol, value, below, meaning: title = "", isBefore = false}] of figures.entries()) {
     if (!place.children[i]) place.append(element("div", {}, element("dt"), element("dd", {}, element("span"), element("small"))));
     const item = place.children[i];
     if (item.title !== title) item.title = title;
+    item.classList.toggle("before", isBefore);
     if (item.dataset.answer !== key) item.dataset.answer = key;
     for (const [part, said] of Object.entries({dt: symbol, span: value, small: below})) {
       const piece = item.querySelector(part);

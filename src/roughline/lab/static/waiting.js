@@ -22,11 +22,14 @@ export class Waiting {
   ask(task, slot, args, {answer, error, progress = () => {}}) {
     this.begin(slot);
     this.#link.ask(task, slot, args, {
-      answer: (header) => { this.end(slot); answer(header); },
-      error: (sentence, at) => { this.end(slot); error(sentence, at); },
+      answer: (header) => { this.#ended(slot); answer(header); },
+      error: (sentence, at) => { this.#ended(slot); error(sentence, at); },
       progress: (message) => { this.progress(message); progress(message); },
     });
   }
+
+  // What was asked has ended, unless it was asked anew meanwhile.
+  #ended(slot) { if (!this.#link.isWaiting(slot)) this.end(slot); }
 
   stop(works) {
     for (const work of works) { this.#link.stop(work); this.end(work); }
