@@ -111,6 +111,16 @@ def test_what_but_sticks_dissipates_nothing():
     assert found["sticking_share"].values.tolist() == [1.0]
 
 
+@pytest.mark.parametrize("nu", [0.0, 0.38])
+def test_full_contact_that_is_repeated_is_as_stiff_as_can_be(nu):
+    pair = (f"E=3 GPa nu={nu}",) * 2
+    found = rl.assess(asked(rough(16), pair, loads="1000 N", shear="200 N", periodic=True)).answers
+    for key in ("stiffness_before_slip", "stiffness_on_further_shear", "stiffness_on_return"):
+        assert np.isposinf(found[key].values).all(), key
+    assert found["shear_displacement"].values == pytest.approx([0.0], abs=1e-15)
+    assert found["cycle_energy"].values == pytest.approx([0.0], abs=1e-12)
+
+
 def test_two_materials_give_the_coupling_of_the_sum_of_their_half_spaces():
     first, second = (70e9, 0.33), (3e9, 0.4)
     pair = rl.Question(

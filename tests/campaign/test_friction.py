@@ -115,6 +115,10 @@ def test_without_friction_nothing_is_said_of_it():
         ({"shear_bars": [0.0, 0.1, float("nan"), 0.0]}, "friction bears less than mu F"),
         ({"half_space": None}, "Poisson"),
         ({"model": "reduced", "half_space": None}, "a plan has it of surfaces"),
+        (
+            {"force_bars": [0.1, 50.0, 0.5, 0.3], "hardness_bar": 1.0},
+            "force_bar 50 at fractal dimension 2.2: bodies with hardness_bar 1 bear less than",
+        ),
         ({"friction": -0.3}, "above 0 and up to 5"),
         ({"friction": "much"}, "friction"),
         ({"force_bars": [0.1, 0.5, 0.0, 0.3]}, "positive, finite"),

@@ -27,6 +27,9 @@ def press(**given):
         ({"shear_forces": [0], "slides": [0]}, "shear_forces and slides are given; give one"),
         ({"shear_forces": [(0, 0, 0)]}, "pairs of finite numbers (x, y) are needed"),
         ({"shear_forces": "much"}, "pairs of finite numbers (x, y) are needed"),
+        ({"shear_forces": ["1e-3"]}, "pairs of finite numbers (x, y) are needed"),
+        ({"shear_forces": np.array([1e-3 + 0j])}, "pairs of finite numbers (x, y) are needed"),
+        ({"slides": np.ma.array([1e-3], mask=[True])}, "slides[0] is (nan, 0); pairs of finite"),
         ({"slides": [(np.nan, 0)]}, "slides[0] is (nan, 0); pairs of finite numbers"),
         ({"shear_forces": [0.003]}, "friction bears less than mu F = 0.003 there"),
         (
@@ -48,7 +51,12 @@ def test_what_cannot_be_is_refused_in_one_line(given, message):
     assert "\n" not in str(told.value)
 
 
-@pytest.mark.parametrize("wrong", [0, -0.1, np.nan, np.inf, 6.0, "0.3", [0.3], [[0.3, -1.0]]])
+MASKED = np.ma.array([[0.3, 0.2]], mask=[[False, True]])
+
+
+@pytest.mark.parametrize(
+    "wrong", [0, -0.1, np.nan, np.inf, 6.0, "0.3", [0.3], [[0.3, -1.0]], [["0.3"]], MASKED]
+)
 def test_a_coefficient_is_a_positive_number_or_a_field(wrong):
     with pytest.raises(rl.InputError, match="a number above 0 and up to 5 is needed"):
         rl.Friction(wrong)
@@ -121,6 +129,8 @@ def test_the_curve_has_what_was_asked_and_files_have_it(tmp_path):
     shears = [(0, 0), (1e-3, 5e-4)]
     curve = press(forces=[0.01, 0.01], shear_forces=shears, fields=True)
     assert np.array_equal(curve.shear_force, shears)
+    one = press(forces=0.01, shear_forces=1e-3)  # numbers alone, as of forces
+    assert np.array_equal(one.shear_force, [(1e-3, 0)])
     assert curve.slide.shape == (2, 2)
     assert curve.shear_stiffness.shape == curve.shear_stiffness_back.shape == (2, 2, 2)
     assert curve.shear_limit == pytest.approx(0.3 * curve.force)
@@ -154,6 +164,21 @@ def test_a_cycle_goes_up_and_down_evenly():
         {"amplitude": 0},
         {"amplitude": 1, "per_cycle": 3},
         {"amplitude": 1, "cycles": 0},
+        {"amplitude": 1e-12, "mean": 1.0},  # with more loads up to the mean than memory holds
+        {"amplitude": 1, "cycles": 10**9},
     ):
-        with pytest.raises(rl.InputError):
+        with pytest.raises(rl.InputError) as told:
             rl.cycle(**wrong)
+        assert "\n" not in str(told.value)
+
+
+@pytest.mark.parametrize("per_cycle", [2, 4, 6, 12, 20, 32])
+def test_a_cycle_comes_back_to_the_same_numbers_and_about_no_mean_to_zero(per_cycle):
+    """So that a load is known as one that was, and the slide without shear as the drift."""
+    half = per_cycle // 2
+    sizes = [x for x, _ in rl.cycle(0.3, per_cycle=per_cycle, cycles=2)]
+    first, second = sizes[-2 * per_cycle - 1 : -per_cycle], sizes[-per_cycle - 1 :]
+    assert first == second
+    assert first[: half + 1] == first[half:][::-1]
+    assert first[:half] == [-each for each in first[half:-1]]
+    assert (0.0 in first) == (half % 2 == 0)

@@ -80,22 +80,22 @@ def _worker_memory(ensemble: Ensemble) -> int:
         return _WORKER_BYTES + _LINE_BYTES * ensemble.n
     shape = (ensemble.n, ensemble.n)
     law, half_space, spacing = ensemble.contact_law(1.0), ensemble.pressed_into, 1 / ensemble.n
+    saturates = max(ensemble.force_bars) > _SATURATING_FORCE
+    share = 1.0 if saturates else estimates.most_in_contact(half_space.periodic)
+    besides = estimates.bytes_of_layers(half_space, shape, (spacing, spacing))
+    besides += estimates.bytes_of_pull(law, 1.0)
+    if ensemble.friction is not None:
+        besides += estimates.bytes_of_shear(0, share, coupled=half_space.is_coupled)
     pressing = estimates.memory_for(
         shape,
         half_space.periodic,
         0,
         yielding=law.memory == "dents",
-        area_fraction=1.0 if max(ensemble.force_bars) > _SATURATING_FORCE else None,
-        besides=estimates.bytes_of_layers(half_space, shape, (spacing, spacing))
-        + estimates.bytes_of_pull(law, 1.0)
-        + (0.0 if ensemble.friction is None else _bytes_of_friction(ensemble)),
+        area_fraction=share,
+        besides=besides,
     )
     heights = 8 * ensemble.n**2
     return _WORKER_BYTES + heights + max(pressing, _GENERATION_BYTES * ensemble.n**2)
-
-
-def _bytes_of_friction(ensemble: Ensemble) -> float:
-    return estimates.bytes_of_shear(0, coupled=ensemble.pressed_into.is_coupled)
 
 
 def _times_longer(ensemble: Ensemble) -> int:

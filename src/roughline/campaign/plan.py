@@ -183,12 +183,13 @@ class Ensemble:
                 f"hardness_bar is {hardness_bar:g}, and the reduced model has no yield: leave it "
                 'out, or take model = "full"'
             )
+        largest = max(self.force_bars)  # of a path it need not be the last
         for dimension in self.fractal_dimensions:
             # differences on the grid miss some of the slope that the waves have
             most = hardness_bar * self.spectrum(dimension).lattice(self.n).rms_slope
-            if not self.force_bars[-1] < most:
+            if not largest < most:
                 self._refuse(
-                    f"force_bar {self.force_bars[-1]:g} at fractal dimension {dimension:g}: bodies "
+                    f"force_bar {largest:g} at fractal dimension {dimension:g}: bodies "
                     f"with hardness_bar {hardness_bar:g} bear less than H A_0, which is at most "
                     f"{most:.3g} here: give smaller force_bars, or a larger hardness_bar"
                 )

@@ -66,9 +66,10 @@ TIMES_WITH_FRICTION = {False: 3, True: 26}
 """As long as so many loads without friction one with it takes, with both tangents, of uncoupled and
 of coupled bodies: as `make friction-speed` measured on 512 points a side."""
 
-# How shear displaces, of uncoupled and of coupled bodies, as measured on 512 points a side; the way
-# that each point has slipped; of each load whose fields are kept its shear, slip, way and stick.
-_SHEAR_BYTES = {False: 55, True: 172}
+# How shear displaces, of uncoupled and of coupled bodies, and for each node in contact what steps
+# and tangents keep of it, as measured on 256 and 512 points a side; the way that each point has
+# slipped; of each load whose fields are kept its shear, slip, way and stick.
+_SHEAR_BYTES = {False: (45, 650), True: (185, 2000)}
 _SLIPPED_BYTES, _SLIDING_FIELDS_BYTES = 8, 41
 _SHORTEST_SECONDS = 1e-3  # of a load, on any grid [s]
 _PROBE_POINTS = 512  # points along a side of the grid that is timed
@@ -163,7 +164,10 @@ def estimate(
     coupled = friction == "coupled"
     if not (isinstance(friction, bool) or coupled):
         refuse("friction", friction, 'True, False or "coupled" is needed')
-    besides = bytes_of_pull(law, 1.0) + (bytes_of_shear(kept, coupled=coupled) if friction else 0)
+    besides = bytes_of_pull(law, 1.0)
+    if friction:
+        most = most_in_contact(periodic) if area_fraction is None else area_fraction
+        besides += bytes_of_shear(kept, most, coupled=coupled)
     given |= {"yielding": yielding or law.memory == "dents", "besides": besides}
     pressing = memory_for(shape, periodic, kept, **given)
     memory = _PROCESS_BYTES + _HEIGHT_BYTES * shape[0] * shape[1] + pressing
@@ -217,15 +221,18 @@ def memory_for(
 
     What layers and a pull take besides is added. [bytes/point]
     """
-    share = area_fraction
-    if share is None:
-        share = _FULL_CONTACT_FROM if periodic else _SATURATED_FROM
+    share = most_in_contact(periodic) if area_fraction is None else area_fraction
     held = bytes_at_a_point(shape, periodic, share, yielding=yielding, several=several)
     points, (on_each, at_most) = shape[0] * shape[1], _SMALL_GRIDS_BYTES
     most = at_most[points > _FEW_POINTS]
     most += share * _SMALL_CONTACT_BYTES[bool(periodic)]
     held += besides + min(on_each, most / points)
     return points * round(_MEMORY_MARGIN * held + _FIELDS_BYTES[yielding] * kept_fields)
+
+
+def most_in_contact(periodic: Periodic) -> float:
+    """Return the largest share in contact where it is not known: that at saturation."""
+    return _FULL_CONTACT_FROM if periodic else _SATURATED_FROM
 
 
 def bytes_at_a_point(
@@ -268,9 +275,14 @@ def bytes_of_pull(law: ContactLaw, share: float) -> float:
     return of_point + of_node * share
 
 
-def bytes_of_shear(kept_fields: int, *, coupled: bool) -> float:
-    """Return what friction takes in addition, and what it adds to fields. [bytes/point]"""
-    return _SHEAR_BYTES[coupled] + _SLIPPED_BYTES + _SLIDING_FIELDS_BYTES * kept_fields
+def bytes_of_shear(kept_fields: int, share: float, *, coupled: bool) -> float:
+    """Return what friction takes in addition with such a share in contact. [bytes/point]
+
+    It is with what it adds to fields.
+    """
+    of_point, of_node = _SHEAR_BYTES[coupled]
+    held = of_point + of_node * share
+    return held + _SLIPPED_BYTES + _SLIDING_FIELDS_BYTES * kept_fields
 
 
 def expected_area_fraction(

@@ -350,14 +350,18 @@ def _refuse_beyond_memory(
         yielding=law.memory == "dents",
         several=loads.values.size > 1,
     )
-    besides = bytes_of_layers(half_space, surface.shape, surface.spacing)
-    if loads.shear is not None:
-        besides += bytes_of_shear(kept, coupled=half_space.is_coupled)
-    if fits_into_memory(memory(area_fraction=1.0, besides=besides + bytes_of_pull(law, 1.0))):
+    of_layers = bytes_of_layers(half_space, surface.shape, surface.spacing)
+
+    def needed(share: float) -> int:
+        besides = of_layers + bytes_of_pull(law, share)
+        if loads.shear is not None:
+            besides += bytes_of_shear(kept, share, coupled=half_space.is_coupled)
+        return memory(area_fraction=share, besides=besides)
+
+    if fits_into_memory(needed(1.0)):
         return
-    share = expected_area_fraction(surface, half_space, loads, law)
     refuse_beyond_memory(
-        memory(area_fraction=share, besides=besides + bytes_of_pull(law, share)),
+        needed(expected_area_fraction(surface, half_space, loads, law)),
         f"pressing {surface.shape[0]} x {surface.shape[1]} points"
         + (f" and keeping the fields of {kept} loads" if kept else ""),
         "take a smaller piece or every other point" + (", or keep fewer fields" if kept else ""),

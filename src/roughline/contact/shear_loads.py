@@ -9,6 +9,7 @@ from typing import Any, Literal
 import numpy as np
 
 from roughline.computing.arrays import Real
+from roughline.computing.memory import refuse_beyond_memory
 from roughline.contact.arguments import checked_count
 from roughline.errors import InputError
 from roughline.errors.checks import number, positive, refuse
@@ -20,6 +21,9 @@ from roughline.halfspace.laws.law import ContactLaw
 
 LARGEST_SHARE_HELD = 1 - 1e-9
 """Of what friction bears; more of it slides."""
+
+_BYTES_PER_LOAD = 200  # of a pair of numbers in a list
+_MOST_STEPS = 1e18  # that are counted
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,11 +150,12 @@ def checked_vectors(name: str, given: Any) -> Real:
     """Return pairs of finite numbers; single numbers are along x."""
     needed = "pairs of finite numbers (x, y) are needed, or numbers along x"
     try:
-        values = np.asarray(given, dtype=np.float64)
+        values = np.atleast_1d(np.ma.filled(np.ma.asarray(given), np.nan))
     except (TypeError, ValueError):
         refuse(name, given, needed)
-    if isinstance(given, str) or values.ndim not in (1, 2) or not values.size:
+    if values.dtype.kind not in "iuf" or values.ndim > 2 or not values.size:
         refuse(name, given, needed)
+    values = values.astype(np.float64)
     if values.ndim == 1:
         values = np.stack([values, np.zeros_like(values)], axis=1)
     if values.shape[1] != 2:
@@ -205,11 +210,16 @@ def cycle(
     if per_cycle % 2:
         refuse("per_cycle", per_cycle, "an even number is needed, half of it for each way")
     angle, half = number("angle", angle), per_cycle // 2
-    step = 2 * amplitude / half
     highest = mean + amplitude
-    rising = max(1, math.ceil(abs(highest) / step * (1 - 1e-12)))
+    steps = min(abs(highest) / amplitude * half / 2 * (1 - 1e-12), _MOST_STEPS)
+    rising = max(1, math.ceil(steps))
+    refuse_beyond_memory(
+        _BYTES_PER_LOAD * (rising + per_cycle * cycles),
+        f"a list of {rising:.3g} loads up to the largest and {per_cycle * cycles:.3g} of cycles",
+        "give fewer cycles, or a larger amplitude for this mean",
+    )
     sizes = [highest * i / rising for i in range(rising + 1)]
-    for _ in range(cycles):
-        sizes += [highest - step * i for i in range(1, half + 1)]
-        sizes += [highest - 2 * amplitude + step * i for i in range(1, half + 1)]
+    # the same numbers up and down, and zero itself in the middle
+    falling = [mean + amplitude * ((half - 2 * i) / half) for i in range(1, half + 1)]
+    sizes += [*falling, *falling[-2::-1], highest] * cycles
     return [(size * math.cos(angle), size * math.sin(angle)) for size in sizes]

@@ -20,6 +20,7 @@ COUPLED_FROM = 0.05
 # Points that slip less in a cycle than this part of the largest slip never slip; and over the
 # way between turns, to what slip is known, as where bodies but stick.
 _STICKS, _KNOWN_TO = 1e-3, 1e-6
+_ROUNDED_TO = 1e-9  # of the slide at which all slips: full contact that is repeated holds all
 
 # By how much bodies move further than the closed form says, at 0.95 of what friction bears, over
 # the size of beta over the coefficient of friction: of a rough contact of 499 points (H = 0.8), by
@@ -217,11 +218,15 @@ class ShearCycles:
         if plain is None or self.ratio is None or not plain.converged.all():
             return None
         loop = _loop_in_closed_form(plain.depth, plain.force, self.ratio, self.friction)
-        return loop if loop.energy > _KNOWN_TO * self.amplitude * self.displacement else None
+        sliding = self.friction * self.ratio * float(plain.depth[0])  # beyond it all slips
+        slips = loop.energy > _KNOWN_TO * self.amplitude * self.displacement
+        return loop if slips and loop.displacement > _ROUNDED_TO * sliding else None
 
 
 def _along(stiffness: Real) -> float:
-    """Return the stiffness along x of bodies that are free to slide across it. [N / m]"""
-    if np.isnan(stiffness).any():
-        return math.nan
-    return 1 / float(np.linalg.inv(stiffness)[0, 0])
+    """Return the stiffness along x of bodies that are free to slide across it. [N / m]
+
+    Where nothing resists a slide across, or nothing lets it be, it is that of x alone.
+    """
+    (xx, xy), (yx, yy) = stiffness.tolist()
+    return xx - xy * yx / yy if yy else xx

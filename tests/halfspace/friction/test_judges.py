@@ -454,3 +454,112 @@ def test_units_change_nothing(beta):
     if beta == 0:
         stiffness = two.shear_stiffness / (pressure * length)
         assert stiffness == pytest.approx(one.shear_stiffness, rel=1e-7, abs=1e-9)
+
+
+@pytest.mark.parametrize("beta", [2 / 7, -0.5])
+@pytest.mark.parametrize("hardness", [None, HARDNESS])
+def test_two_materials_that_are_unloaded_are_where_one_is(beta, hardness):
+    """Nothing bears shear any more, and nothing is lifted by it."""
+    surface, force = rough(16), 0.02
+    body = rl.Homogeneous(1.0, "x", poisson=0.3, beta=beta)
+    shears = 0.3 * force * np.array([0, 0.5, 0, 0.2, 0])
+    asked = {"half_space": body, "friction": rl.Friction(0.3), "hardness": hardness, "fields": True}
+    forces = [force, force, 0, force / 2, 0]
+    curve = rl.press(surface, forces=forces, shear_forces=shears, **asked)
+    dents = curve.fields[2].indentation
+    for load in (2, 4):
+        fields = curve.fields[load]
+        separation = surface.heights.max() - surface.heights + fields.indentation
+        assert curve.depth[load] == pytest.approx(separation.min(), abs=1e-12)
+        assert fields.gap == pytest.approx(separation - curve.depth[load], abs=1e-12)
+        assert fields.indentation == pytest.approx(dents, abs=1e-12)
+    if hardness is None:
+        again = rl.press(surface, depths=curve.depth, shear_forces=shears, **asked)
+        assert again.force == pytest.approx(curve.force, rel=1e-4, abs=1e-12)
+
+
+@pytest.mark.parametrize("beta", [0.0, 2 / 7])
+@pytest.mark.parametrize("periodic", [False, True])
+def test_a_strength_that_nothing_reaches_is_as_good_as_any_larger_one(beta, periodic):
+    body = rl.Homogeneous(1.0, periodic, poisson=0.3, beta=beta)
+    slides = [
+        rl.press(
+            rough(16),
+            half_space=body,
+            friction=rl.Friction(strength=strength),
+            forces=[0.02, 0.02],
+            shear_forces=[0.0, 1e-3],
+        ).slide
+        for strength in (1e2, 1e4, 1e8)
+    ]
+    for each in slides[1:]:
+        assert each == pytest.approx(slides[0], abs=1e-5 * abs(slides[0]).max())
+
+
+@pytest.mark.parametrize("control", ["shear_forces", "slides"])
+@pytest.mark.parametrize("beta", [0.0, 2 / 7])
+@pytest.mark.parametrize(
+    "friction", [rl.Friction(MU), rl.Friction(strength=0.02), rl.Friction(MU, strength=0.02)]
+)
+def test_a_load_that_is_repeated_changes_nothing(control, beta, friction):
+    """Nothing slips further, and what sticks if loads go on is as it was."""
+    forces = np.repeat([0.01, 0.02, 0.015], 2)
+    along = {"shear_forces": [1e-3, 2e-3, -1e-3], "slides": [1e-3, 6e-3, 4e-3]}[control]
+    curve = rl.press(
+        rough(16),
+        half_space=rl.Homogeneous(1.0, poisson=0.3, beta=beta),
+        friction=friction,
+        forces=forces,
+        **{control: np.repeat(along, 2)},
+    )
+    for name in ("depth", "slide", "shear_force", "stick_fraction", "shear_stiffness"):
+        values = getattr(curve, name)
+        assert np.array_equal(values[::2], values[1::2]), name
+    assert (curve.dissipated[1::2] == 0).all()
+    assert (curve.stick_fraction[::2] < 1).any()
+
+
+def test_a_node_that_joins_sticks_until_it_bears_all_of_a_strength():
+    """What it bears does not follow its pressure, so that it is not at its bound as it joins."""
+    curve = rl.press(
+        rough(16),
+        half_space=rl.Homogeneous(1.0, poisson=0.3),
+        friction=rl.Friction(strength=0.02),
+        forces=[0.01, 0.02],
+        slides=[0.0, 5e-3],
+        fields=True,
+    )
+    fields = curve.fields[1]
+    full = np.hypot(*np.moveaxis(fields.shear, 2, 0)) >= 0.02 * (1 - 1e-9)
+    assert 0 < full.sum() < fields.contact.sum()
+    assert fields.stick[fields.contact & ~full].all()
+
+
+@pytest.mark.parametrize(("poisson", "angle"), [(0.0, 0.0), (0.3, 25.0)])
+def test_full_contact_that_is_repeated_slides_as_far_as_it_slips(poisson, angle):
+    """All that sticks holds all, across a slip along one line too, and the rest follows."""
+    n, force, small = 16, 0.1, 1e-5
+    x = np.cos(2 * np.pi * np.arange(n) / n)
+    surface = rl.Surface(1e-3 * (x[:, np.newaxis] + 0.5 * x), sizes=(1.0, 1.0))
+    along = np.array([np.cos(np.deg2rad(angle)), np.sin(np.deg2rad(angle))])
+    shears = [0 * along, 0.995 * MU * force * along, 0.995 * (1 + small) * MU * force * along]
+    curve = rl.press(
+        surface,
+        half_space=rl.Homogeneous(1.0, True, poisson=poisson),
+        friction=rl.Friction(MU),
+        forces=[force] * 3,
+        shear_forces=shears,
+        rtol=1e-12,
+        solver=rl.Solver(precision="float64"),
+    )
+    assert (curve.area_fraction == 1).all()
+    assert np.isposinf(curve.shear_stiffness_back[:, [0, 1], [0, 1]]).all()
+    assert 0 < curve.stick_fraction[1] < 1
+    stiffness, slid = curve.shear_stiffness[1], np.diff(curve.slide, axis=0)[1]
+    change = np.diff(curve.shear_force, axis=0)[1]
+    if poisson == 0:
+        assert np.isposinf(stiffness[1, 1])
+        assert stiffness[0] == pytest.approx([change[0] / slid[0], 0.0], rel=1e-3)
+    else:
+        expected = np.linalg.solve(stiffness, change)
+        assert slid == pytest.approx(expected, abs=1e-2 * abs(slid).max())

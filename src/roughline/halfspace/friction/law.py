@@ -147,11 +147,12 @@ def _in_range(argument: str, given: Any, most: float | None, needed: str) -> Any
     numbers: Any = value
     if value is None:
         try:
-            numbers = np.array(given, dtype=np.float64)
+            numbers = np.ma.filled(np.ma.asarray(given), np.nan)
         except (TypeError, ValueError):
             refuse(argument, given, needed)
-        if isinstance(given, str | bool) or numbers.ndim != 2 or not numbers.size:
+        if numbers.dtype.kind not in "iuf" or numbers.ndim != 2 or not numbers.size:
             refuse(argument, given, f"{needed}, or a field of such with the surface's shape")
+        numbers = np.array(numbers, dtype=np.float64)
         numbers.flags.writeable = False
     wrong = ~((np.asarray(numbers) > 0) & np.isfinite(numbers))
     if most is not None:

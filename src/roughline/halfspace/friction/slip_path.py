@@ -41,7 +41,7 @@ from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.operators.restricted_shear import RestrictedShear
 from roughline.halfspace.operators.shear import ShearConvolution, at_origin, shear_on_grid
 from roughline.halfspace.search.path import LoadPath
-from roughline.halfspace.search.problem import Contact, Load, Method, Outcome, Problem
+from roughline.halfspace.search.problem import Contact, Load, Method, Outcome, Problem, Residuals
 from roughline.halfspace.search.response import Response
 from roughline.halfspace.search.tangent import response
 
@@ -95,6 +95,12 @@ class Slid:
             convolutions=self.convolutions,
             response=contact.response if solved else None,
         )
+
+    @property
+    def again(self) -> Slid:
+        """The same under the same loads, after which nothing has slipped further."""
+        contact, nothing = replace(self.contact, convolutions=0), np.zeros_like(self.slip)
+        return replace(self, contact=contact, slip=nothing, convolutions=0)
 
     @property
     def dissipated(self) -> float:
@@ -155,6 +161,9 @@ class SlidePath:
         """Return the state under the next load."""
         if self._lost is not None:
             return replace(_unknown(self._lost, Outcome.UNKNOWN_SURFACE), convolutions=0)
+        last = self._last
+        if last is not None and last.load == shear and last.contact.load == load:
+            return last.again
         if self._problem.grid.half_space.is_coupled:
             found = self._coupled(load, shear)
         else:
@@ -186,13 +195,13 @@ class SlidePath:
         """
         last, problem = self._last, self._problem
         everywhere = problem.grid.nodes(InGrid(np.arange(problem.separation.size)))
-        start, found, convolutions, lift = None, None, 0, np.zeros(problem.separation.shape)
-        if last is not None and last.contact.nodes.size:
-            found = self._led(last, load, shear)
-            start = found.contact.contact_set
-            lift = self._lift(last.contact.nodes, found.shear, everywhere)
-        before = None if last is None else self._moved_by(last, everywhere)
         left = problem if last is None else last.contact.problem  # by the loads so far
+        found, convolutions = None if left.is_apart_under(load) else self._led(load, shear), 0
+        start, lift = None, np.zeros(problem.separation.shape)
+        if found is not None:
+            start = found.contact.contact_set
+            lift = self._lift(found.contact.nodes, found.shear, everywhere)
+        before = None if last is None else self._moved_by(last, everywhere)
         rtol, error, step = self._method.rtol, 1.0, None
         for _ in range(_MOST_ALTERNATIONS):
             aim = max(rtol, min(_ROUGHEST_TURN, _TURN_SHARE * error))
@@ -205,6 +214,9 @@ class SlidePath:
                 return _unknown(contact, contact.outcome)
             dented = left.separation + (contact.separation - lifted.separation)
             unlifted = replace(contact, problem=replace(left, separation=dented))
+            if not contact.nodes.size and lift.any():  # which nothing does where nothing touches
+                start, found, step, lift = None, None, None, np.zeros_like(lift)
+                continue
             if not contact.nodes.size:
                 answer = response(contact, window, None, self._method)
                 return _apart(replace(unlifted, response=answer), shear, last)
@@ -221,24 +233,23 @@ class SlidePath:
         else:
             return replace(_unknown(contact, Outcome.STALLED), residual=error)
         answer = response(contact, window, None, self._method)
-        residuals = contact.residuals
-        contact = replace(
-            unlifted,
-            looked_at=None,
-            gaps=(contact.gap + change).ravel(),
-            residuals=replace(
-                residuals, gap=residuals.gap + error, penetration=residuals.penetration + error
-            ),
-            response=answer,
-        )
+        bodies, gaps = unlifted.problem, (contact.gap + change).ravel()
+        contact = replace(contact, problem=bodies, looked_at=None, gaps=gaps)
+        contact = replace(contact, residuals=_more_open(contact.residuals, error))
         tangents, stiffness = step.coupled_tangents(found)
         contact = replace(contact, response=_with_stiffness(answer, stiffness))
         convolutions += answer.convolutions + tangents.convolutions
         found = replace(found, sticks=tangents.sticks, tangents=tangents)
         return replace(found, contact=contact, convolutions=convolutions)
 
-    def _led(self, last: Slid, load: Load, shear: ShearLoad) -> Slid:
-        """Return about the state under the next load: the last, led along its tangent."""
+    def _led(self, load: Load, shear: ShearLoad) -> Slid | None:
+        """Return about the state under the next load: the last, led along its tangent.
+
+        None where nothing touched.
+        """
+        last = self._last
+        if last is None or not last.contact.nodes.size:
+            return None
         before, tangents = last.contact, last.tangents
         if tangents is None or tangents.coupled is None:
             return last
@@ -321,8 +332,11 @@ class _SlideStep:
         gap, own = self._gaps_before(), bodies.diagonal * contact.pressure + self._dented()
         self._springs = gap / own * exact.diagonal
         self._since_contact = own / (gap + own)
-        strength = float(self._bound.sum()) / float(contact.pressure.sum())
-        self._scale = contact.length_scale * strength
+        presses, bears = float(contact.pressure.sum()), float(self._bound.sum())
+        # a strength beyond the pressures is never borne, and nothing is compared with it
+        counts = min(presses, bears)
+        self._scale = contact.length_scale * counts / presses
+        self._counts = counts / bears  # of what friction bears
 
     def _before(self, everywhere: Real | None) -> tuple[Real, Real]:
         """Return how the nodes of this load were displaced at the last one, and their shear.
@@ -386,7 +400,7 @@ class _SlideStep:
             way = np.array(load.slide) - self._slide_before
             start = self._guess(way), np.zeros(2)
             found = self._solved(self._moved_before + way, None, start, tolerance)
-            return self._state(found, way, limit, load)
+            return self._state(found, np.array(load.slide), limit, load)
         assert load.force is not None
         force = np.array(load.force)
         if not np.hypot(*force) < _SLIDES_FROM * limit:
@@ -395,7 +409,7 @@ class _SlideStep:
         if self._nearly is not None:
             way = self._nearly.slide - self._slide_before
         found = self._solved(self._moved_before, total, (self._guess(way), way), tolerance)
-        return self._state(found, found.level, limit, load)
+        return self._state(found, self._slide_before + found.level, limit, load)
 
     def coupled_tangents(self, found: Slid) -> tuple[ShearTangents, tuple[float, float]]:
         """Return the tangents of bodies that are coupled, and the normal stiffness on both."""
@@ -467,7 +481,7 @@ class _SlideStep:
     ) -> Sheared:
         """Return the shear on the discs from one and a level, to the tolerance by the exact one."""
         discs = Discs(self._bound, target, total, self._exact.diagonal, self._springs)
-        accuracy = tolerance, _TOTAL_SHARE * self._method.rtol
+        accuracy = tolerance, _TOTAL_SHARE * self._method.rtol * self._counts
         found = self._operators.found(discs, start, self._known, accuracy)
         self.convolutions += self._operators.convolutions
         self._known = found.shear, found.displacement
@@ -477,16 +491,18 @@ class _SlideStep:
         """Return which nodes have all the shear that they bear."""
         contact = self._contact
         slope = self._friction.slope(contact.pressure, contact.nodes)
-        return Rim.of(shear, self._bound, (self._springs > 0) & ~contact.plastic, slope)
+        # a node that joins bears little where that follows its pressure, and all of a strength
+        joined = (self._springs > 0) & ~contact.plastic & (slope > 0)
+        return Rim.of(shear, self._bound, joined, slope)
 
-    def _went(self, load: ShearLoad, way: Real) -> Going:
+    def _went(self, load: ShearLoad, slide: Real) -> Going:
         """Return how loads went to this one; if nothing changed, as they went before."""
         contact, last = self._contact, self._last
         assert contact.load is not None
         coupled, touch = contact.problem.grid.half_space.is_coupled, self._untouched.touch
         by_depth = coupled and contact.load.depth is not None
         normal = contact.depth - touch if by_depth else contact.force
-        along = way if load.force is None else np.array(load.force)
+        along = slide - self._slide_before if load.force is None else np.array(load.force)
         if last is not None:
             same, before = last.contact.load == contact.load, last.contact
             normal -= before.depth - touch if by_depth else before.force
@@ -496,14 +512,14 @@ class _SlideStep:
         going = Going(float(normal), (along[0], along[1]), not by_depth, load.force is not None)
         return last.went if going.stands and last is not None and last.went else going
 
-    def _state(self, found: Sheared, way: Real, limit: float, load: ShearLoad) -> Slid:
+    def _state(self, found: Sheared, slide: Real, limit: float, load: ShearLoad) -> Slid:
         """Return the state with some shear."""
         scale = self._scale
         force = self._area * found.shear.sum(axis=0)
-        off = self._area * found.missing / limit if limit else 0.0
-        residual = max(found.residual / scale if scale else 0.0, off)
+        off = self._area * found.missing / (limit * self._counts)
+        residual = max(found.residual / scale, off)
         converged = residual <= self._method.rtol
-        rim, going, tangents = self._rim(found.shear), self._went(load, way), None
+        rim, going, tangents = self._rim(found.shear), self._went(load, slide), None
         if converged and not self._contact.problem.grid.half_space.is_coupled:
             tangents = shear_tangents(
                 self._operators, self._contact, rim, going, self._method, self._tangents
@@ -514,7 +530,7 @@ class _SlideStep:
             Outcome.CONVERGED if converged else Outcome.STALLED,
             found.shear,
             found.displacement + self._pushed,
-            self._slide_before + way,
+            slide,
             force,
             found.slip * self._since_contact[:, np.newaxis],
             ~rim.full if tangents is None else tangents.sticks,
@@ -611,6 +627,12 @@ def _with_stiffness(answer: Response, stiffness: tuple[float, float]) -> Respons
     return Response(
         replace(answer.loading, stiffness=on), replace(answer.unloading, stiffness=back)
     )
+
+
+def _more_open(residuals: Residuals, error: float) -> Residuals:
+    """Return residuals of gaps that are known up to an error."""
+    gap, penetration = residuals.gap + error, residuals.penetration + error
+    return replace(residuals, gap=gap, penetration=penetration)
 
 
 def _unknown(contact: Contact, outcome: Outcome) -> Slid:

@@ -30,6 +30,7 @@ from roughline.halfspace.search.problem import Contact, Method
 
 _ENERGY_MARGIN = 0.01  # part of the tolerance, to which the stiffness is solved
 _MOST_STEPS = 300
+_NOTHING_SLIDES = 1e-6  # of a slide in full contact, that is left without its mean
 _NOTHING_RESISTS = 1e-9  # of the largest stiffness along the surface
 _ROUGH_SHARE = 1e-6  # of the energy of an error, that steps with rough operators leave
 _ROUGH_ERROR = 0.03  # of the energy that they find, at most
@@ -89,6 +90,8 @@ class ShearTangents:
 class ShearMaps(Protocol):
     """How shear displaces the nodes: exactly, roughly, and about how that is undone."""
 
+    diagonal: float  # displacement of a node by shear on itself [length / pressure]
+
     def exact(self, shear: Real) -> Real:
         """Return the displacements."""
 
@@ -112,12 +115,17 @@ def shear_tangents(
 
     That of turning back is known from the last load, if that was of the same contact.
     """
-    grid, nodes, nobody = contact.problem.grid, contact.nodes.size, np.zeros_like(rim.full)
+    grid, nobody = contact.problem.grid, np.zeros_like(rim.full)
     accuracy = _ENERGY_MARGIN * method.rtol
-    rates = _ShearRates(maps, contact, rim, going, accuracy)
-    if nodes == contact.separation.size and grid.inverse.operator.mean_is_free:
+    if _is_rigid(contact):
+        base = _OnBase(maps, contact.nodes.size)
+        rates = _ShearRates(base, contact, rim, going, accuracy, base)
+        slips = slip_on(rim, rates.of) if rim.may_slip.any() else nobody
         back = np.diag([np.inf, np.inf])
-    elif last is not None and last.led is not None:
+        on = grid.cell_area * base.without_base(rates.form(slips)) if slips.any() else back
+        return ShearTangents(~slips, on, back, rates.spent)
+    rates = _ShearRates(maps, contact, rim, going, accuracy)
+    if last is not None and last.led is not None:
         back = last.back
         rates.start_from(nobody, last.led[1], back / grid.cell_area)
     else:
@@ -132,13 +140,77 @@ def shear_tangents(
     return ShearTangents(~slips, on, back, rates.spent, led)
 
 
+def _is_rigid(contact: Contact) -> bool:
+    """Whether even shear displaces nothing: in full contact, displaced from the mean."""
+    free = contact.problem.grid.inverse.operator.mean_is_free
+    return free and contact.nodes.size == contact.separation.size
+
+
+class _OnBase:
+    """Full contact on a base that gives way to even shear, so that all slides are finite.
+
+    The base adds to a slide what the total of the shear asks for, and nothing else.
+    """
+
+    def __init__(self, maps: ShearMaps, nodes: int) -> None:
+        self._maps, self.diagonal = maps, maps.diagonal
+        self._compliance = maps.diagonal / math.sqrt(nodes)  # by the total of the shear
+
+    def _base(self, shear: Real) -> Real:
+        return np.asarray(self._compliance * shear.sum(axis=0), np.float64)
+
+    def exact(self, shear: Real) -> Real:
+        """Return the displacements."""
+        return self._maps.exact(shear) + self._base(shear)
+
+    @property
+    def rough(self) -> Linear | None:
+        """Displacements, roughly; None where the exact ones cost no more."""
+        rough = self._maps.rough
+        return None if rough is None else lambda shear: rough(shear) + self._base(shear)
+
+    def inverse(self, moved: Real) -> Real:
+        """Return about the shear that displaces so."""
+        return self._maps.inverse(moved)
+
+    def _apart(self, form: Real) -> tuple[Real, Real, Real]:
+        """Return the directions of a form, its values there, and what of a slide is no base's."""
+        values, directions = np.linalg.eigh(form)
+        left = 1 - self._compliance * values
+        return directions, values, np.where(left > _NOTHING_SLIDES, left, 0.0)
+
+    def with_base(self, slide: Real, form: Real) -> Real:
+        """Return a slide and what the base adds to it; nothing where bodies alone do not slide."""
+        directions, _, left = self._apart(form)
+        share = np.divide(1.0, left, out=np.zeros(2), where=left > 0)
+        return np.asarray(directions @ (share * (directions.T @ slide)), np.float64)
+
+    def without_base(self, form: Real) -> Real:
+        """Return a form of the bodies alone, infinite along what they do not slide."""
+        directions, values, left = self._apart(form)
+        stiffness = np.divide(values, left, out=np.full(2, np.inf), where=left > 0)
+        whole = np.zeros((2, 2))
+        for axis, value in zip(directions.T, stiffness, strict=True):
+            square = np.outer(axis, axis)
+            some = np.abs(square) > _NOTHING_SLIDES
+            whole[some] += value * square[some]
+        return whole
+
+
 class _ShearRates:
     """How the shear goes on where pressures do not depend on it."""
 
     def __init__(
-        self, maps: ShearMaps, contact: Contact, rim: Rim, going: Going, accuracy: float
+        self,
+        maps: ShearMaps,
+        contact: Contact,
+        rim: Rim,
+        going: Going,
+        accuracy: float,
+        base: _OnBase | None = None,
     ) -> None:
         self._maps, self._rim, self._going, self._accuracy = maps, rim, going, accuracy
+        self._base = base
         self._area, self.spent = contact.problem.grid.cell_area, 0
         self._slips: Mask | None = None  # of the nodes, for which all is known
         self.known: UnitSlides | None = _as_pressed(contact)
@@ -184,6 +256,8 @@ class _ShearRates:
         if self._going.by_shear:
             missing = slide / self._area - rate.sum(axis=0)
             slide = np.linalg.lstsq(form, missing, rcond=None)[0]
+        elif self._base is not None:
+            slide = self._base.with_base(slide, form)
         rate = rate + unit.along(slide, unit.shear)
         moved = moved + unit.along(slide, unit.displacement)
         return Rates(self._rim.along(slide - moved), self._rim.along(rate) - self._bears_more)
@@ -204,7 +278,6 @@ class CoupledMaps(ShearMaps, Protocol):
     """The same of bodies in which pressure displaces along the surface, and shear into the body."""
 
     nodes: GridNodes
-    diagonal: float
 
     def displaced(self, pressure: Real, shear: Real) -> tuple[Real, Real]:
         """Return the displacements into the body and along the surface."""
@@ -227,10 +300,11 @@ def coupled_tangents(
     tangents are those under a constant force, and dF/dd is that under a constant shear force. They
     are begun with those of the last load.
     """
-    grid, nobody = contact.problem.grid, np.zeros_like(rim.full)
-    if contact.nodes.size == contact.separation.size and grid.inverse.operator.mean_is_free:
-        unknown = np.full((2, 2), np.nan)
-        return ShearTangents(~rim.full, unknown, unknown), (np.inf, np.inf)
+    nobody = np.zeros_like(rim.full)
+    if _is_rigid(contact):  # how it goes on where some of it slips is not known
+        stuck = np.diag([np.inf, np.inf])
+        going_on = np.full((2, 2), np.nan) if rim.full.any() else stuck
+        return ShearTangents(~rim.full, going_on, stuck), (np.inf, np.inf)
     begun = (None, None) if last is None or last.coupled is None else last.coupled
     rates = _CoupledRates(maps, contact, rim, going, method.rtol)
     back = rates.ways(nobody, begun[1])
@@ -521,8 +595,9 @@ class _Stuck:
         if start is not None:
             shear = self._begun(target, start, known, accuracy)
             moved, products = self._maps.exact(shear), 1
-            if known is None:
-                length = inner(shear, target) / inner(shear, moved)
+            energy = inner(shear, moved)
+            if known is None and energy > 0:  # else nodes can follow nothing of the start
+                length = inner(shear, target) / energy
                 shear, moved = length * shear, length * moved
         residual = target - self.allowed(moved)
         direction, before, gone = np.zeros_like(target), 0.0, residual

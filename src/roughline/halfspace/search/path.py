@@ -253,8 +253,7 @@ def _attainable(force: float, problem: Problem) -> float:
 def _known(problem: Problem, load: Load, *, for_first_time: bool) -> Contact | None:
     """Return the contact where it needs no search: bodies apart, or no finite pressures do."""
     depth = load.depth
-    is_separated = load.value == 0 if depth is None else depth <= problem.touch
-    if is_separated and not problem.shares.above_zero.nodes.size:
+    if problem.is_apart_under(load) and not problem.shares.above_zero.nodes.size:
         return _unsearched(problem, load, Outcome.CONVERGED)
     # full contact is rigid where the mean is free; rounding counts where loads came back to it
     rigid = depth is not None and problem.grid.half_space.mean_is_free and for_first_time

@@ -106,6 +106,10 @@ class Problem:
                     "law",
                 )
 
+    def is_apart_under(self, load: Load) -> bool:
+        """Whether nothing is pressed by a load, as the surfaces are now."""
+        return load.value == 0 if load.depth is None else load.depth <= self.touch
+
     @property
     def inverse(self) -> ApproximateInverse:
         """Approximate inverse of the operator."""
