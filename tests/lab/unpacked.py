@@ -17,7 +17,9 @@ def unpacked(message, **held):
     }
     for name, place in places.items():
         if place.get("above"):
-            arrays[name] = np.maximum(arrays[name] - arrays[place["above"]], 0)
+            # as the page has them, in single precision
+            both, below = (arrays[each].astype(np.float32) for each in (name, place["above"]))
+            arrays[name] = np.maximum(both.astype(float) - below, 0)
     return header, arrays
 
 
