@@ -86,6 +86,17 @@ def test_a_layer_is_sheared(boundary):
     assert captions[1].startswith("a cycle in 16 steps")
 
 
+def test_the_layer_is_the_second_body_of_the_command():
+    state = read_state(SHEARED | {"t": "0.05", "E_l": "0.2"})
+    layer = next(each for each in state.added if each.key == "t")
+    asked = rl.Question(state.surface(32), materials=layer.code(state).materials, loads=["1 N"])
+    waves = np.geomspace(1e2, 1e6, 9)
+    told, own = (
+        each.coupling_spectrum(waves) for each in (asked.sheared_half_space, state.half_space)
+    )
+    np.testing.assert_allclose(told, own, rtol=1e-9)
+
+
 def test_code_gives_the_same_numbers(pressed, ran):
     scale = pressed.slide[FIRST, 0]
     for state in (SHEARED, SHEARED | {"Q": "3.3 N"}):

@@ -84,5 +84,5 @@ class LayerPhysics(Physics):
         layer = f"E={young} Pa nu={poisson} {thickness} m"
         return AddedCode(
             half_space=f"half_space = rl.Layered(\n{layered}\n)\n",
-            materials=f"{layer} on E={base} Pa nu={of_base}, rigid",
+            materials=f"rigid, {layer} on E={base} Pa nu={of_base}",
         )
