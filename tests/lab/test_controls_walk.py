@@ -80,15 +80,28 @@ def test_fields_show_three_digits_and_keep_what_is_typed(page_of_explore):
     drawn(page, F=0.1)
 
 
+def grasped(page, slider):
+    """Press the mouse on a slider where it stands; return its box and the middle of its height.
+
+    An answer on its way may move it away from the mouse, which is then pressed again.
+    """
+    for _ in range(20):
+        slider.hover()  # once it stands still
+        box = slider.bounding_box()
+        low, high, value = slider.evaluate("({min, max, value}) => [min, max, value].map(Number)")
+        middle = box["y"] + box["height"] / 2
+        at = box["x"] + 8 + (box["width"] - 16) * (value - low) / (high - low)
+        page.mouse.move(at, middle)
+        page.mouse.down()
+        if slider.evaluate("(each) => each.matches(':active')"):
+            return box, middle
+        page.mouse.up()
+    raise AssertionError(f"{slider} never stood still")
+
+
 def dragged(page, slider, share):
     """Drag a slider with the mouse from where it stands beyond one of its ends."""
-    slider.hover()  # once it stands still
-    box = slider.bounding_box()
-    low, high, value = slider.evaluate("({min, max, value}) => [min, max, value].map(Number)")
-    middle = box["y"] + box["height"] / 2
-    at = box["x"] + 8 + (box["width"] - 16) * (value - low) / (high - low)
-    page.mouse.move(at, middle)
-    page.mouse.down()
+    box, middle = grasped(page, slider)
     page.mouse.move(box["x"] + box["width"] * (0.4 + 0.2 * share), middle)
     page.mouse.move(box["x"] + (box["width"] + 30) * share - 15 * (1 - share), middle)
     page.mouse.up()
