@@ -179,17 +179,18 @@ def test_an_estimate_counts_the_loads_whose_fields_are_kept():
 
 def test_an_estimate_counts_what_friction_takes_and_adds_to_fields():
     shape, points = (1024, 1024), 1024**2
+    # bytes of a point, the way that it has slipped, and of each load with fields; with the margin
     plain, rubbing, coupled = (
         rl.estimate(shape, 4, friction=each, area_fraction=0.0).memory
         for each in (False, True, "coupled")
     )
-    assert 50 * points < rubbing - plain < 80 * points
-    assert 180 * points < coupled - plain < 230 * points
+    assert rubbing - plain == pytest.approx(1.15 * (45 + 8) * points, rel=0.01)
+    assert coupled - plain == pytest.approx(1.15 * (185 + 8) * points, rel=0.01)
     plain, rubbing = (
         rl.estimate(shape, 4, fields=[1, 3], friction=each, area_fraction=0.0).memory
         for each in (False, True)
     )
-    assert 130 * points < rubbing - plain < 175 * points
+    assert rubbing - plain == pytest.approx(1.15 * (45 + 8 + 2 * 41) * points, rel=0.01)
 
 
 @pytest.mark.parametrize(("beta", "most"), [(0.0, 1.5), (2 / 7, 1.5)])
