@@ -377,7 +377,7 @@ def test_a_range_that_is_a_little_too_short_is_told_to_be_so():
     """Never that one times as much is needed, nor that four cells are fewer than four."""
     for zone in (3.999999, 3.9, 1.0, 0.5):
         law = rl.Dugdale(1.0, (np.pi * zone) ** 0.5)  # h_0² / (pi w) cells
-        (remark,) = map(str, facts_of_pull(law, np.full((2, 2), 1e3)))
+        (remark,) = map(str, facts_of_pull(law, 1e3))
         wider = float(remark.split("range ")[1].split(" times")[0])
         cells = float(remark.split("is ")[1].split(" cells")[0])
         assert wider > 1

@@ -283,7 +283,7 @@ class _WrittenCurve:
                 *tilt_warnings(surface),
                 *_jump_facts(surface, curve.half_space.repeats),
                 *border_warnings(surface, curve.force, curve.border_share),
-                *facts_of_pull(law_there, scaled.separation()),
+                *facts_of_pull(law_there, float(np.ptp(surface.heights)) / scaled.height),
             ),
         )
 

@@ -11,7 +11,6 @@ import math
 
 import numpy as np
 
-from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.facts.fact import Fact
 from roughline.halfspace.laws.bounds import Bounds
@@ -87,8 +86,11 @@ def resolution(law: ContactLaw) -> dict[str, float]:
     return {} if law.only_pushes else {"pulling_zone_cells": zone(law)}
 
 
-def facts_of_pull(law: ContactLaw, separation: Real) -> tuple[Fact, ...]:
-    """Say where the grid does not resolve the pull, and where all of the bodies is pulled."""
+def facts_of_pull(law: ContactLaw, farthest: float) -> tuple[Fact, ...]:
+    """Say where the grid does not resolve the pull, and where all of the bodies is pulled.
+
+    The farthest points of bodies that touch in one are this far from each other.
+    """
     if law.only_pushes:
         return ()
     found, width = [], zone(law)
@@ -100,6 +102,6 @@ def facts_of_pull(law: ContactLaw, separation: Real) -> tuple[Fact, ...]:
         numbers = {"cells": cells, "needed": RESOLVED_FROM, "wider": wider}
         has_pull_off = resolves_pull_off(law)
         found.append(Fact("pulling_zone_unresolved", **numbers, has_pull_off=has_pull_off))
-    if pulled_length(law) >= separation.max():
+    if pulled_length(law) >= farthest:
         found.append(Fact("pulled_everywhere"))
     return tuple(found)
