@@ -14,8 +14,9 @@ import numpy as np
 from page import Page, machine
 
 import roughline as rl
-from roughline.halfspace.friction import slip_path
-from roughline.halfspace.friction.slip_path import ShearLoad, SlidePath
+from roughline.halfspace.friction import slide_step
+from roughline.halfspace.friction.slid import ShearLoad
+from roughline.halfspace.friction.slip_path import SlidePath
 from roughline.halfspace.inverse.cache import working_memory
 from roughline.halfspace.laws.unilateral import Unilateral
 from roughline.halfspace.search.path import LoadPath
@@ -103,8 +104,8 @@ def cycled(problem, method):
 def measure(page, points, beta, cycle):
     """Rows of one grid."""
     name = "shear_tangents" if beta == 0 else "coupled_tangents"
-    tangents = Timed(getattr(slip_path, name))
-    setattr(slip_path, name, tangents)
+    tangents = Timed(getattr(slide_step, name))
+    setattr(slide_step, name, tangents)
     plain, rows = [], []
     for _ in range(RUNS):
         problem, method = bodies(points, 0.0)
@@ -121,7 +122,7 @@ def measure(page, points, beta, cycle):
         page.row(
             f"{points}²", kind, f"a cycle of {CYCLE} steps", f"{spent:.0f}", "20", "within", ""
         )
-    setattr(slip_path, name, tangents.function)
+    setattr(slide_step, name, tangents.function)
 
 
 def main():

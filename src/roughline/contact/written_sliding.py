@@ -17,7 +17,8 @@ from roughline.contact.shear_loads import ShearLoads
 from roughline.contact.sliding import SlidingCurve, SlidingFields
 from roughline.contact.status import Status
 from roughline.facts.fact import Fact
-from roughline.halfspace.friction.slip_path import ShearLoad, Slid, slide_path
+from roughline.halfspace.friction.slid import ShearLoad, Slid
+from roughline.halfspace.friction.slip_path import slide_path
 from roughline.halfspace.search.problem import Contact, Load, Method, Outcome, Problem
 
 # Error of the depth of two materials in one load from first touch, over beta²: at most so much on
