@@ -160,21 +160,23 @@ def _press_body(
     from roughline.assessment.assess import assess_body
     from roughline.report.json_output import assessment_json
     from roughline.report.progress import load_progress
-    from roughline.report.terminal import announce, print_assessment
+    from roughline.report.terminal import announce, print_assessment, writing
 
-    with interruptible("there is no result"), load_progress() as progress:
-        with writable(report, out):  # a folder that cannot be written is refused before the work
+    with interruptible("there is no result"):
+        # a folder that cannot be written is refused before the work
+        with writable(report, out), load_progress() as progress:
             result = assess_body(question, announce=announce, progress=progress)
         files: list[Path] = []
         if report or out:
             from roughline.report.contact_figures import write_contact
             from roughline.report.contact_report import write_contact_report
 
-            if report and result.interrupted:
-                files += write_contact(result, report)  # a curve, but no answers to report yet
-            elif report:
-                files += write_contact_report(result, report, _as_typed())
-            files += write_contact(result, out) if out else []
+            with writing("the report" if report else "the curve"):
+                if report and result.interrupted:
+                    files += write_contact(result, report)  # a curve, but no answers to report yet
+                elif report:
+                    files += write_contact_report(result, report, _as_typed())
+                files += write_contact(result, out) if out else []
         if table is not None and not result.interrupted:
             files.append(rl.export_table(result, table))
     if json:
@@ -194,10 +196,11 @@ def _press_part(
     from roughline.assessment.assess_part import assess_part
     from roughline.report.json_output import part_json
     from roughline.report.progress import part_progress
-    from roughline.report.terminal import announce, print_part
+    from roughline.report.terminal import announce, print_part, writing
 
-    with interruptible("no map was done"), part_progress() as (maps, loads):
-        with writable(report, out):  # a folder that cannot be written is refused before the work
+    with interruptible("no map was done"):
+        # a folder that cannot be written is refused before the work
+        with writable(report, out), part_progress() as (maps, loads):
             part = assess_part(
                 question.one_by_one(), announce=announce, progress=loads, map_progress=maps
             )
@@ -205,8 +208,9 @@ def _press_part(
         if report or out:
             from roughline.report.part_report import write_part, write_part_report
 
-            files += write_part_report(part, report, _as_typed()) if report else []
-            files += write_part(part, out) if out else []
+            with writing("the report" if report else "the curves"):
+                files += write_part_report(part, report, _as_typed()) if report else []
+                files += write_part(part, out) if out else []
     if json:
         print_json(part_json(part, files))
     else:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from contextlib import AbstractContextManager
 from pathlib import Path
 
 import numpy as np
@@ -312,6 +313,11 @@ def print_files(files: Iterable[Path]) -> None:
 def announce(text: str) -> None:
     """Print a line on standard error."""
     Console(stderr=True, markup=False).print(text, highlight=False, soft_wrap=True)
+
+
+def writing(what: str) -> AbstractContextManager[object]:
+    """Say on a terminal that something is written, for as long as it is."""
+    return Console(stderr=True, markup=False).status(f"writing {what}")
 
 
 def print_generated(body: Body, file: Path) -> None:
