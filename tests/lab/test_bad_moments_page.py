@@ -92,33 +92,29 @@ def test_a_slider_that_moves_faster_than_answers_come_is_followed(opened):
     assert page.evaluate("told")[:3] == [0.3, 0.4, 0.5]
 
 
-def test_an_answer_that_comes_late_takes_the_place_of_no_newer_one(opened):
-    page = opened(SMALL.replace("n=64", "n=256"), points=256)
+def test_walk_past_late_answers_to_another_view_and_back_and_through_a_dialog(opened):
+    page = opened(SMALL.replace("n=64", "n=256") + "&shown=gap", points=256)
     for force in ("0.3", "0.4"):
         typed(page, "F", force)
         came(page, "explore.coarse")
     came(page, "explore.full")
     page.evaluate("release('explore.full')")
-    let_go(page)
+    page.evaluate("release()")  # what is coarse comes last
     settled(page, points=256, F=0.4)
     assert "coarse" not in page.inner_text("#explore [data-status]")
 
-
-def test_the_address_is_of_the_view_that_is_seen(opened):
-    page = opened(SMALL + "&shown=gap", points=64)
     typed(page, "F", "0.3")
     came(page, "explore.coarse", "explore.full")
     page.click('nav [data-view="published"]')
-    let_go(page)
+    page.evaluate("release()")
     assert address(page)["view"] == "published"
     page.click('nav [data-view="explore"]')
+    let_go(page)
     settled(page, F=0.3)
     said = address(page)
     assert (said["view"], said["F"], said["shown"]) == ("explore", "0.3", "gap")
 
-
-def test_a_dialog_goes_with_its_view(opened):
-    page = opened(SMALL, points=64)
+    page.evaluate("held = []")
     page.click("#explore [data-code=python]")
     page.wait_for_function("() => held.some(([, task]) => task === 'explore.code')")
     page.click('nav [data-view="published"]')
