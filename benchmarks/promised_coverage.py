@@ -64,7 +64,7 @@ STUDIES = {
     "gaps": (GAP, 3000, Promise(0.9)),
     "pixels": (PIXELS, 13, Promise(0.9)),
     "wholes": (WHOLES, 0, Promise(0.95, silent=0.05)),
-    "known pieces": (KNOWN_PIECES, 0, Promise(0.95)),
+    "known pieces": (KNOWN_PIECES, 0, Promise(0.95, silent=0.05)),
     "scans": (GAUSSIAN_SCANS, 0, Promise(0.92, silent=1 / 6, mean_error=math.log(1.1) + 0.16)),
     "means": (MEANS, 0, around(0.95, _OF_1000)),
     "kappa": (KAPPA, 0, Promise(0.95 - _OF_200)),
