@@ -225,6 +225,15 @@ def test_the_page_of_speed_quotes_its_tables():
     lightest = [ratio for ratio, row in zip(ratios, cold, strict=True) if row["F̄"] == "0.03"]
     assert f"it takes {min(lightest):.1f} to {max(lightest):.1f} times as long" in page
     assert f"at {sum(ratio > 1 for ratio in ratios)} of the 24 cold loads" in page
+    of_paths = rows_of("peers", "A path of loads from first touch to saturation")
+    cold = [number(row["cold over roughline"]) for row in of_paths]
+    assert f"ASPHER's cold loads take {min(cold):.1f} to {max(cold):.1f} times as long" in page
+    warm = {n: [] for n in ("512²", "1024²", "2048²")}
+    for row in of_paths:
+        warm[row["grid"]].append(number(row["warm over roughline"]))
+    coarse, fine = warm["512²"], min(warm["2048²"])
+    said = f"{min(coarse):.1f} to {max(coarse):.1f} times at 512², {fine:.0f} times and more at"
+    assert f"its warm ones {said} 2048²" in page
     made = re.search(r"`make peers`: (roughline [\d.]+), (ASPHER [\w.]+),", page)
     ours, theirs = made.groups()
     assert f"These rows are of {ours} and {theirs};" in page
