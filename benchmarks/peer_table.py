@@ -217,7 +217,7 @@ def paths(rows, page):
         *("ASPHER, warm", "warm over roughline"),
     )
     heading = "A path of loads from first touch to saturation"
-    tabled(page, heading, columns, of_kind(rows, "path"), cells, said)
+    tabled(page, heading, columns, of_kind(rows, "path"), cells, said, at_most=3)
 
 
 def cold_path(rows, path, each):
