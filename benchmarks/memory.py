@@ -10,7 +10,7 @@ import argparse
 import itertools
 
 import numpy as np
-from page import Page, elsewhere, once, peak
+from page import Page, elsewhere, once, peak, resident
 
 import roughline as rl
 from roughline.contact.estimates import bytes_at_a_point, expected_area_fraction
@@ -43,11 +43,11 @@ def cells(n, boundary, forces, pressure_over_hardness=None):
     """Press a surface; return the cells of its row."""
     periodic = boundary == "periodic"
     spectrum = rl.SelfAffine(hurst=0.8, rms_height=1.0)
-    small = spectrum.surface(128, 0)
+    small = spectrum.surface(320, 0)  # above the grids that have a search of their own
     for law in (rl.Yielding(30.0), rl.Unilateral()):  # compiles, whatever the contact needs
         half_space = rl.Homogeneous(1.0, periodic)
         rl.press(small, half_space=half_space, law=law, forces=[0.01, 1.0, 20.0])
-    interpreter = peak()
+    interpreter = resident()
     surface = spectrum.surface(n, 7)
     hardness = None
     if pressure_over_hardness:

@@ -12,6 +12,7 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import numpy as np
+import psutil
 
 import roughline as rl
 from roughline.computing.cores import available_cores, processor_name
@@ -127,6 +128,11 @@ def peak():
     """Return the largest memory that this process has held so far. [bytes]"""
     unit = 1 if sys.platform == "darwin" else 1024
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
+
+
+def resident():
+    """Return the memory that this process holds now. [bytes]"""
+    return psutil.Process().memory_info().rss
 
 
 def elsewhere(function, *given):

@@ -8,7 +8,7 @@ of several, elastic and yielding in turn; memory is that of processes of their o
 import argparse
 
 import numpy as np
-from page import Page, elsewhere, once, peak
+from page import Page, elsewhere, once, peak, resident
 
 import roughline as rl
 
@@ -51,8 +51,8 @@ def add_times(page, repeats):
 
 def held(n, hardness):
     """Bytes that this process came to hold over those before, the generation included."""
-    timed(rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(64, 0), [0.01], 1.0)  # compiles
-    before = peak()
+    timed(rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(320, 0), [0.01], 1.0)  # compiles
+    before = resident()
     timed(rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(n, 7), FORCES["12 loads"], hardness)
     return peak() - before
 
