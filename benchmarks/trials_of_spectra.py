@@ -93,10 +93,10 @@ def piece_rows(kind, option, number):
     q_high = Q_LOW * min(cut, fit.q_last / Q_LOW)  # no fit sees beyond
     found = fit.q_high or fit.q_last
     is_cut = cut < points / 2 and q_high < fit.q_last
-    size = f"{kind}, {points} x {points}" if kind == "map" else f"{kind}, {points} points"
-    low, high = HURST_WINDOWS[number % 3]
     if q_high < LEAST_SPAN * Q_LOW * max(roll, 1):
         return
+    size = f"{kind}, {points} x {points}" if kind == "map" else f"{kind}, {points} points"
+    low, high = HURST_WINDOWS[number % 3]
     for name, truth, value, ends in (
         ("H of a piece", hurst, fit.hurst, fit.hurst_interval),
         ("roll-off" if roll else "no roll-off", parent.q_roll, fit.q_roll, fit.q_roll_interval),
@@ -108,14 +108,14 @@ def piece_rows(kind, option, number):
 
 
 def known_piece_rows(kind, option, number):
-    """Tilted pieces of maps by their Hurst exponents, of scans by their points; laws as these."""
+    """Tilted pieces of maps and scans; their power laws, too, span a factor of three or more."""
     for each in piece_rows(kind, option, number):
         each["quantity"] = each["quantity"].removeprefix("no ")
         yield each | {"piece": each["window" if kind == "map" else "size"]}
 
 
 def whole_rows(kind, option, seed):
-    """Periodic surfaces of 128 x 128 points, power laws over a factor of three or more."""
+    """Periodic surfaces of 128 x 128 points whose power laws span a factor of three or more."""
     rng = np.random.default_rng([seed, *option.encode()])
     hurst, roll = rng.uniform(0.1, 0.95), rng.choice([1.0, rng.uniform(*ROLL_OFFS)])
     cut = WHOLE / 2 * rng.choice([1.0, rng.uniform(*CUTOFFS)])

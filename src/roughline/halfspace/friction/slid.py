@@ -71,9 +71,9 @@ class Slid:
 def unknown(contact: Contact, outcome: Outcome) -> Slid:
     """Return a load that was not solved."""
     nothing = np.full((contact.nodes.size, 2), math.nan)
-    unknown = np.full(2, math.nan)
+    nowhere = np.full(2, math.nan)
     sticks = np.zeros(contact.nodes.size, dtype=bool)
-    parts = contact, outcome, nothing, nothing, unknown, unknown, nothing, sticks
+    parts = contact, outcome, nothing, nothing, nowhere, nowhere, nothing, sticks
     return Slid(*parts, math.nan, math.nan, contact.convolutions)
 
 
