@@ -33,7 +33,7 @@ PLACES = {
     "plot": 1.1,
     "comparison": 6.2,
     "ball": 1.1,
-    "creep": 2.75,
+    "creep": 6.3,
     "engineering": 1.1,
     "theories": 7.9,
     "fluid": 6.6,
