@@ -140,7 +140,7 @@ CHOSEN = {
     **_of(
         "measurement/fit",
         _CONFIDENCE=_FIT,
-        _SHORTEST_RANGE=_FIT,
+        SHORTEST_RANGE=_FIT,
         _LEAST_ISOTROPY=_FIT,
         _CONTRADICTING_DEVIANCE=_FIT,
         _LARGEST_CHANGE="needs none: what [a page](engineering.md) defines as changed",

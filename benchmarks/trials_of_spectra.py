@@ -12,6 +12,7 @@ from made_surfaces import GAUSSIAN, INSTRUMENTS, KINDS, parent_of, piece_of
 from trials import E_STAR, Study, make_of, row, seen
 
 import roughline as rl
+from roughline.measurement.fit import SHORTEST_RANGE
 
 HURSTS = (0.3, 0.6, 0.9)
 SCANS = 4  # of each map
@@ -20,7 +21,6 @@ FORCE_BARS = (0.01, 0.1, 1.0)
 HURST_WINDOWS = ((0.1, 0.4), (0.4, 0.7), (0.7, 0.95))
 ROLL_OFFS = (4, 16)
 CUTOFFS = (0.35, 0.8)  # of the Nyquist wavenumber
-LEAST_SPAN = 3  # of wavenumbers, below which a fit refuses a power law, as it says
 PIECES = {
     # points along a side: how many
     "map": {128: 400, 256: 400, 512: 200, 1024: 40},
@@ -93,7 +93,7 @@ def piece_rows(kind, option, number):
     q_high = Q_LOW * min(cut, fit.q_last / Q_LOW)  # no fit sees beyond
     found = fit.q_high or fit.q_last
     is_cut = cut < points / 2 and q_high < fit.q_last
-    if q_high < LEAST_SPAN * Q_LOW * max(roll, 1):
+    if q_high < SHORTEST_RANGE * Q_LOW * max(roll, 1):
         return
     size = f"{kind}, {points} x {points}" if kind == "map" else f"{kind}, {points} points"
     low, high = HURST_WINDOWS[number % 3]
@@ -119,7 +119,7 @@ def whole_rows(kind, option, seed):
     rng = np.random.default_rng([seed, *option.encode()])
     hurst, roll = rng.uniform(0.1, 0.95), rng.choice([1.0, rng.uniform(*ROLL_OFFS)])
     cut = WHOLE / 2 * rng.choice([1.0, rng.uniform(*CUTOFFS)])
-    if cut < LEAST_SPAN * roll:
+    if cut < SHORTEST_RANGE * roll:
         return
     q_high = None if cut == WHOLE / 2 else Q_LOW * cut
     law = rl.SelfAffine(hurst=hurst, rms_height=1.0, q_roll=Q_LOW * roll, q_high=q_high)

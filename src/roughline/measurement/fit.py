@@ -28,7 +28,7 @@ _Spectrum = IsotropicSpectrum | ProfileSpectrum
 _Interval = tuple[float, float]
 
 _CONFIDENCE = 0.975  # of profile likelihoods; as ends are chosen too, 95 in 100 hold the truth
-_SHORTEST_RANGE = 3.0  # ratio of wavenumbers that a power law must span
+SHORTEST_RANGE = 3.0  # ratio of wavenumbers that a power law must span
 _LEAST_ISOTROPY = 1 / 3  # least over largest slope, below which directions have no law in common
 _CONTRADICTING_DEVIANCE = 4.0  # beyond that of the best instrument, which the true one rarely has
 _LARGEST_CHANGE = math.log(1.2)  # of the spectrum, by the instrument
@@ -294,7 +294,7 @@ def _refusals(hurst: float, interval: _Interval, span: float, scatter: float) ->
     """Say why a law does not describe a spectrum, from its slope, its span and what is off it."""
     if interval[1] < 0 or interval[0] > 1:
         yield f"the slope is that of H = {hurst:.2f}, outside 0 to 1"
-    if span < _SHORTEST_RANGE:
+    if span < SHORTEST_RANGE:
         yield f"the power law spans a factor of {span:.2g} only"
     if scatter > _MOST_SCATTER:
         yield f"the spectrum is off the law by a factor of {10**scatter:.2f} (rms)"
