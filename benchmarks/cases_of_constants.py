@@ -281,6 +281,20 @@ def cases(maps=()):
                 )
             },
         ),
+        "sheared maps": Case(
+            ("margins",),
+            {
+                "32": lambda: asked(
+                    a_map(points=32),
+                    ELASTIC,
+                    rl.Friction(0.3),
+                    rl.Shear("40 N", cycles=2),
+                    loads=["200 N"],
+                    elastic=True,
+                    grid_error=True,
+                )
+            },
+        ),
         "a large map": Case(
             PRESSED, {"272": lambda: asked(a_map(points=272), ELASTIC, joint, loads=["5 N"])}
         ),
@@ -303,22 +317,22 @@ def cases(maps=()):
         ),
         "joints": Case(PRESSED, {"three maps": lambda: part(some_maps("sharp roll-off"), joint)}),
         "parts": Case(
-            ("assessment", "statistics"),
+            ("assessment", "margins", "statistics"),
             {
                 "three maps": lambda: part(some_maps("uneven roughness")),
                 "maps of two sizes": lambda: part(_of_two_sizes()),
             },
         ),
         "wavy joints": Case(
-            ("assessment", "measurement"),
+            ("assessment", "margins", "measurement"),
             {"three maps": lambda: part(some_maps("waviness of 4 maps"), joint)},
         ),
         "line scans": Case(
-            ("assessment", "measurement"),
+            ("assessment", "margins", "measurement"),
             {"one": lambda: scanned(a_scan()), "worn": lambda: scanned(a_scan("worn"))},
         ),
         "other line scans": Case(
-            ("assessment",),
+            ("assessment", "margins"),
             {
                 "two": lambda: scanned(a_scan(), against=a_scan(seed=6)),
                 "short": lambda: scanned(a_scan(points=64, waves=20.0)),
@@ -347,7 +361,7 @@ def cases(maps=()):
             },
         ),
         "parts at limits": Case(
-            ("assessment", "statistics"),
+            ("assessment", "margins", "statistics"),
             {
                 "rough and smooth": lambda: part(_of_three_heights(), joint),
                 "sides that differ": lambda: part(_of_two_sizes(1.07, 1.0), joint),
@@ -355,7 +369,7 @@ def cases(maps=()):
             },
         ),
         "seals at limits": Case(
-            ("fluid",),
+            ("fluid", "margins"),
             {
                 "48 points": lambda: sealed(a_map(points=48, waves=5.0).detrended(), None),
                 "four waves": lambda: sealed(

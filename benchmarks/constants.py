@@ -124,6 +124,8 @@ def _changed(key, base, maps):
             if key in known["uses"]:
                 numbers, facts = _found(ask)
                 row.add(known["numbers"], numbers, known["facts"], facts)
+    if not row.parts and any(key in each["uses"] for each in before.values()):
+        raise SystemExit(f"{key}: cases use it, and none of them is for constants of its room")
     # a module that no case loads
     return {"key": key, "value": constant.value, "changed": how[0] if how else "", **row.told}
 
