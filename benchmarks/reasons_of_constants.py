@@ -243,6 +243,7 @@ GUARDS = {
     **_of(
         "fluid/trials",
         _MOST_TRIALS="bodies that never seal",
+        _LARGEST_REACH="searches whose first loads are far from the crossing",
         _LARGEST_SHARE="bodies that seal only where all of them bears the hardness",
     ),
     **_of(
