@@ -24,6 +24,7 @@ _PANEL_RADIANS = 10.0  # radians of J that one panel holds at most
 _PANEL_FALLS = 5.0  # q h that it holds at most: exp(-2 q h) falls by exp(-10)
 _TURNED_FROM = 40.0  # times the longest length: exp(-40) is left out
 _TURNS_AT = 2.0  # q r, at which the path leaves the real axis: Hankel's functions end at zero
+_SMALLEST_QR = 1e-6  # of the panels up to there: a soft base is felt by far longer waves than r
 
 
 def hankel(
@@ -74,7 +75,7 @@ def _turned(transform: Callable[[Real], Real], r: Real, order: int) -> Real:
 
     J is the real part of Hankel's function, which falls along that way.
     """
-    q, weights = on_panels(np.array([0.0, _TURNS_AT]))
+    q, weights = on_panels(np.array([0.0, *np.geomspace(_SMALLEST_QR, _TURNS_AT, 12)]))
     up, shares = on_panels(np.array([0.0, *np.geomspace(1.0, _TURNED_FROM, 8)]))
     way = _TURNS_AT + 1j * up
     before = weights * special.jv(order, q)
