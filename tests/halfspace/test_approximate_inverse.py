@@ -118,7 +118,7 @@ def test_blocks_that_push_keep_their_sums_as_pulls_are_left_out():
     before = np.random.default_rng(6).normal(0.2, 1.0, nodes.indices.size)
     after = without_pulls(before, nodes, sides)
     x, y = np.divmod(nodes.indices, SHAPE[1])
-    _, block = np.unique([x // sides[0], y // sides[1]], axis=1, return_inverse=True)
+    _, block = np.unique(x // sides[0] * SHAPE[1] + y // sides[1], return_inverse=True)
     sums = np.bincount(block, before)
     pushes = np.bincount(block, np.maximum(before, 0.0))
     kept = sums > 0.1 * pushes
