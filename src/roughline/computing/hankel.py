@@ -24,7 +24,7 @@ _PANEL_RADIANS = 10.0  # radians of J that one panel holds at most
 _PANEL_FALLS = 5.0  # q h that it holds at most: exp(-2 q h) falls by exp(-10)
 _TURNED_FROM = 40.0  # times the longest length: exp(-40) is left out
 _TURNS_AT = 2.0  # q r, at which the path leaves the real axis: Hankel's functions end at zero
-_SMALLEST_QR = 1e-6  # of the panels up to there: a soft base is felt by far longer waves than r
+_SMALLEST_QR = 1e-6  # where the first panel ends: on a soft base waves far longer than r count
 
 
 def hankel(
